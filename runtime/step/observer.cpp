@@ -172,7 +172,9 @@ void Observer::finish(Trajectory& trajectory) {
   record_change(trajectory.time, trajectory.state.data());
   record_terms(trajectory.time, trajectory.state.data());
   for (std::size_t i = 0; i < invariants_.size(); ++i) {
-    invariants_[i].drift = changes_[i] == 0 ? 0 : static_cast<double>(changes_[i] / sizes_[i]);
+    // A value that is no number is no drift of 0: those who take the largest would not see it.
+    const auto drift = changes_[i] == 0 ? 0 : static_cast<double>(changes_[i] / sizes_[i]);
+    invariants_[i].drift = std::isnan(drift) ? std::numeric_limits<double>::infinity() : drift;
     invariants_[i].allowed = allowed_drift(i, trajectory.steps);
   }
   if (settings_.sample_every > 0 && trajectory.time != times_.back()) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 #include <thread>
 
@@ -364,6 +365,28 @@ TEST(Conserve, PassesAndFailsByItsBound) {
                                          "dop853", "--tolerance", "1e-4", "--json"});
   EXPECT_EQ(strict.status, 1);
   EXPECT_EQ(strict.json().at("failed"), 1);
+}
+
+/// No integral, and infinite from the start: what it changes by is no number.
+TEST(Conserve, ADriftThatIsNoNumberFails) {
+  const Folder folder;
+  std::ofstream(folder.path() / "infinite.toml") << R"toml(title = "infinite"
+[phase_space]
+variables = ["x", "y"]
+[equations]
+x = "y"
+y = "-x"
+[integrals]
+A = "exp(1000*(x^2 + 2*y^2 + 1))"
+[[scene]]
+name = "default"
+initial = { x = "10", y = "0" }
+duration = "10"
+)toml";
+  const Outcome outcome =
+      run_in(folder, {"conserve", "./infinite.toml", "--method", "taylor", "--json"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.json().at("failed"), 1);
 }
 
 /// Half of the cases need no compiler by this method.
