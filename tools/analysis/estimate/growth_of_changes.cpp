@@ -10,6 +10,9 @@
 namespace casimir {
 namespace {
 
+/// Of the largest state, the least that others are taken for.
+constexpr double kLeastSize = 1e-9;
+
 /// Steps in all columns together: a tenth of a second where the equations are quadratic, and half a
 /// second where they are interpreted.
 constexpr unsigned long long kSteps = 60000, kInterpretedSteps = 6000;
@@ -221,8 +224,17 @@ std::optional<double> Conditioning::time_of(double factor) const {
 std::vector<double> sizes_of(const Trajectory& trajectory) {
   std::vector<double> sizes = trajectory.sizes;
   const double largest = std::ranges::max(sizes);
-  for (double& size : sizes) size = largest == 0 ? 1 : std::max(size, 1e-9 * largest);
+  for (double& size : sizes) size = largest == 0 ? 1 : std::max(size, kLeastSize * largest);
   return sizes;
+}
+
+std::vector<std::size_t> smaller_states(const Trajectory& trajectory,
+                                        const std::vector<double>& initial) {
+  const double least = kLeastSize * std::ranges::max(trajectory.sizes);
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < initial.size(); ++i)
+    if (initial[i] != 0 && trajectory.sizes[i] < least) result.push_back(i);
+  return result;
 }
 
 std::optional<Conditioning> conditioning(const PreparedScene& run, const Settings& settings,

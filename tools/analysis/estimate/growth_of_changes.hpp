@@ -34,6 +34,11 @@ struct Conditioning {
 /// and no less than a billionth of the largest of them, which is all that is left of a zero.
 std::vector<double> sizes_of(const Trajectory& trajectory);
 
+/// The states whose own sizes are smaller than that, though they do not begin at 0: an estimate of
+/// the error says nothing of them.
+std::vector<std::size_t> smaller_states(const Trajectory& trajectory,
+                                        const std::vector<double>& initial);
+
 /// Integrates the variational equations along a run of `duration` by Taylor series, without a
 /// compiler, at the tolerance of the run or a tighter one; in a limited number of steps. Beyond,
 /// growth is extrapolated: by the power of time, or exponentially, that fits its second half.

@@ -12,6 +12,7 @@
 #include "runtime/step/stiffness.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
+#include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/estimate/near_singular.hpp"
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/drift_check.hpp"
@@ -234,9 +235,21 @@ class Judge {
     if (result_.later && result_.later->missing) doubts.emplace_back(kInterpretedWarning);
     for (std::string& doubt : check_drift(model_, run_.specialisation.invariant_names, trajectory))
       doubts.push_back(std::move(doubt));
+    if (trajectory.status == Status::ok) doubt_small_states();
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings, trajectory);
     if (trajectory.status != Status::ok || singular_->crossed() || costs_digits())
       result_.near_singular = singular_->finding();
+  }
+
+  void doubt_small_states() {
+    std::string names;
+    for (const std::size_t i : smaller_states(result_.trajectory, run_.initial))
+      names += (names.empty() ? "" : ", ") + run_.specialisation.states[i];
+    if (names.empty()) return;
+    result_.doubts.push_back(
+        fmt::format("the estimate says nothing of {}: all the time below a billionth of the "
+                    "largest state; other units would show it",
+                    names));
   }
 
   /// Whether the estimate of the error leaves room for digits that a small divisor took.

@@ -48,8 +48,14 @@ std::vector<CheckedMember> check_members(const PreparedScene& run, const Method&
                                          const EnsembleResult& result, double budget) {
   constexpr double kPart = 0.1;
   std::vector<CheckedMember> checked;
+  bool too_slow = false;  // one was: the others take as long
   const auto ended = [&](std::size_t i) { return result.members[i].status == Status::ok; };
   for (const std::size_t member : members_to_check(result.members.size(), ended)) {
+    CheckedMember& found = checked.emplace_back(CheckedMember{member, {}});
+    if (too_slow) {
+      found.trust.known = found.trust.unconfirmed = true;
+      continue;
+    }
     const PreparedScene own = scene_of(run, ensemble, member);
     const Method& how = method.series ? *find_method("taylor") : method;
     const CompiledModule compiled = module_of(own, how);
@@ -58,11 +64,9 @@ std::vector<CheckedMember> check_members(const PreparedScene& run, const Method&
     alone.atol = ensemble.atol_of(member, settings.atol);
     alone.give_up = time_limit(budget);
     const Trajectory again = integrate(compiled.module, how, alone, own.initial, own.parameters);
-    CheckedMember& found = checked.emplace_back(CheckedMember{member, {}});
     if (again.status != Status::ok) {
-      found.trust.known = true;
-      found.trust.unconfirmed = true;
-      if (again.status == Status::stopped) break;  // the others take as long
+      found.trust.known = found.trust.unconfirmed = true;
+      too_slow = again.status == Status::stopped;
       continue;
     }
     found.trust = assess(own, compiled, how, alone, again, kPart * budget);

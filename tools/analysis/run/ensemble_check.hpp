@@ -22,7 +22,7 @@ std::vector<std::size_t> members_to_check(std::size_t members,
 
 /// Integrates some members again by themselves, each for no more than about `budget` seconds, with
 /// an estimate of their errors: `members_to_check`. One that does not reach the end in that time is
-/// unconfirmed, and the last that is tried. Members have no estimate of their own, and what
+/// unconfirmed, and so are those after it. Members have no estimate of their own, and what
 /// rounding or a step does to one of them it mostly does to its neighbours as well.
 /// \param run  what the members are, but for their initial states and parameters.
 std::vector<CheckedMember> check_members(const PreparedScene& run, const Method& method,
