@@ -13,6 +13,7 @@
 #include "codegen/dag/vanishing.hpp"
 #include "codegen/optimise/optimise.hpp"
 #include "codegen/optimise/terms.hpp"
+#include "codegen/real_constants.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/model/given_functions.hpp"
 
@@ -121,6 +122,8 @@ class Specialiser {
   auto within(const std::string& what, const Step& step) -> decltype(step()) {
     try {
       return step();
+    } catch (const NoAngle& problem) {
+      throw failed(what, problem.what());
     } catch (const GiNaC::pole_error&) {
       throw failed(what, "division by zero");
     } catch (const std::overflow_error&) {  // GiNaC's, of numbers
@@ -145,7 +148,10 @@ class Specialiser {
   }
 
   GiNaC::ex bound(const std::string& what, const GiNaC::ex& expression) {
-    return within(what, [&] { return model_.at_parameters(expression, binding_); });
+    return within(what, [&] {
+      codegen::require_real_constants(model_, expression, binding_);
+      return model_.at_parameters(expression, binding_);
+    });
   }
 
   /// What the code can compute for other values of its run-time parameters it must be able to

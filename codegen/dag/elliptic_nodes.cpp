@@ -1,5 +1,7 @@
 #include "codegen/dag/elliptic_nodes.hpp"
 
+#include "symbolic/error.hpp"
+
 namespace casimir::codegen {
 namespace {
 
@@ -123,19 +125,21 @@ Scaled third_kind(const Terms& t, Scaled x, Scaled y, Scaled z, Scaled p) {
   return t.sum(sum);
 }
 
-/// Descending through the means from an angle that is 2^n times as large.
+/// Descending through the means from an angle that is 2^n times as large (DLMF 22.20.ii), with the
+/// quotients q = b/a of the means: (a - b)/(a + b) is (1 - q)/(1 + q). Of these no coefficient is
+/// squared again and again.
 Scaled amplitude(const Terms& t, const Scaled& u, const Scaled& k) {
-  Scaled a = t.one(), b = t.root(t.minus(t.one(), t.power(k, 2))), c = k;
+  Scaled a = t.one();
+  Scaled q = t.root(t.product({t.minus(t.one(), k), t.sum({t.one(), k})}));
   std::vector<Scaled> ratios;
   for (int n = 0; n < kMeans; ++n) {
-    const Scaled next = t.times(ratio(1, 2), t.sum({a, b}));
-    // (a - b)/2 without cancellation.
-    c = t.times(ratio(1, 4), t.over(t.power(c, 2), next));
-    b = t.root(t.product({a, b}));
-    a = next;
-    ratios.push_back(t.over(c, a));
+    const Scaled sum = t.sum({t.one(), q});
+    ratios.push_back(t.over(t.minus(t.one(), q), sum));
+    a = t.times(ratio(1, 2), t.product({a, sum}));
+    q = t.times(2, t.over(t.root(q), sum));
   }
-  Scaled angle = t.times(1 << kMeans, t.product({a, u}));
+  // By now q is 1; where k is 1, it is 0, and there is no angle.
+  Scaled angle = t.times(1 << kMeans, t.product({t.over(a, q), u}));
   for (std::size_t n = ratios.size(); n-- > 0;) {
     const Scaled bent = t.call(Op::asin, t.product({ratios[n], t.call(Op::sin, angle)}));
     angle = t.times(ratio(1, 2), t.sum({angle, bent}));
@@ -151,6 +155,9 @@ Scaled elliptic_node(Dag& dag, const std::string& name, const std::vector<Scaled
   if (name == "R_D") return second_kind(t, arguments[0], arguments[1], arguments[2]);
   if (name == "R_J") return third_kind(t, arguments[0], arguments[1], arguments[2], arguments[3]);
   const Scaled& k = arguments[1];
+  if (k.node == Dag::kOne && cln::abs(k.coefficient) >= 1)
+    throw ModelError(
+        "the modulus of Jacobi's functions, the second argument, lies between -1 and 1");
   const Scaled angle = amplitude(t, arguments[0], k);
   if (name == "am") return angle;
   if (name == "sn") return t.call(Op::sin, angle);

@@ -2,6 +2,7 @@
 #include <cln/cln.h>
 
 #include <cstdlib>
+#include <map>
 #include <sstream>
 
 #include "codegen/emit/number_literal.hpp"
@@ -63,67 +64,145 @@ cln::cl_R checked(const cln::cl_R& value, const Program& program, int i, const L
   return value;
 }
 
-cln::cl_R approximate(const Program& program, int i, const cln::float_format_t& format,
-                      const Limits& limits) {
-  const Instruction& code = at(program, i);
-  if (code.op == Op::constant) return cln::cl_float(number(program, code), format);
-  if (code.op == Op::pi) return cln::pi(format);
-  const cln::cl_R a =
-      checked(approximate(program, code.a, format, limits), program, code.a, limits);
-  const cln::cl_R b = code.b < 0 ? cln::cl_R(0) : approximate(program, code.b, format, limits);
-  switch (code.op) {
-    case Op::add:
-      return a + b;
-    case Op::sub:
-      return a - b;
-    case Op::mul:
-      return a * b;
-    case Op::div:
-      if (cln::zerop(b)) throw ModelError("division by zero in a constant");
-      return a / b;
-    case Op::neg:
-      return -a;
-    case Op::pow:
-      return real(cln::expt(cln::cl_N(a), number(program, at(program, code.b))), program, i);
-    case Op::sqrt:
-      return real(cln::sqrt(cln::cl_N(a)), program, i);
-    case Op::sin:
-      return cln::sin(a);
-    case Op::cos:
-      return cln::cos(a);
-    case Op::tan:
-      return cln::tan(a);
-    case Op::sinh:
-      return cln::sinh(a);
-    case Op::cosh:
-      return cln::cosh(a);
-    case Op::tanh:
-      return cln::tanh(a);
-    case Op::exp:
-      return cln::exp(a);
-    case Op::log:
-      return real(cln::log(cln::cl_N(a)), program, i);
-    case Op::asin:
-      return real(cln::asin(cln::cl_N(a)), program, i);
-    case Op::acos:
-      return real(cln::acos(cln::cl_N(a)), program, i);
-    case Op::abs:
-      return cln::abs(a);
-    case Op::sign:
-      return cln::signum(a);
-    default:
-      return cln::atan(b, a);
-  }
-}
+/// The values of instructions in one precision, each computed once: integrals of Carlson's are a
+/// thousand instructions, of which each uses the three before.
+class Approximation {
+ public:
+  Approximation(const Program& program, int digits, const Limits& limits)
+      : program_(program), format_(cln::float_format(digits)), limits_(limits) {}
 
-std::string binary(const Program& program, const Instruction& code, const char* sign) {
-  return "(" + constant_text(program, code.a) + sign + constant_text(program, code.b) + ")";
-}
+  cln::cl_R operator()(int i) {
+    const auto known = values_.find(i);
+    if (known != values_.end()) return known->second;
+    return values_.emplace(i, computed(i)).first->second;
+  }
+
+ private:
+  cln::cl_R computed(int i) {
+    const Instruction& code = at(program_, i);
+    if (code.op == Op::constant) return cln::cl_float(number(program_, code), format_);
+    if (code.op == Op::pi) return cln::pi(format_);
+    const cln::cl_R a = checked((*this)(code.a), program_, code.a, limits_);
+    const cln::cl_R b = code.b < 0 ? cln::cl_R(0) : (*this)(code.b);
+    return applied(i, code, a, b);
+  }
+
+  cln::cl_R applied(int i, const Instruction& code, const cln::cl_R& a, const cln::cl_R& b) const {
+    switch (code.op) {
+      case Op::add:
+        return a + b;
+      case Op::sub:
+        return a - b;
+      case Op::mul:
+        return a * b;
+      case Op::div:
+        if (cln::zerop(b)) throw ModelError("division by zero in a constant");
+        return a / b;
+      case Op::neg:
+        return -a;
+      case Op::pow:
+        return real(cln::expt(cln::cl_N(a), number(program_, at(program_, code.b))), program_, i);
+      case Op::sqrt:
+        return real(cln::sqrt(cln::cl_N(a)), program_, i);
+      case Op::sin:
+        return cln::sin(a);
+      case Op::cos:
+        return cln::cos(a);
+      case Op::tan:
+        return cln::tan(a);
+      case Op::sinh:
+        return cln::sinh(a);
+      case Op::cosh:
+        return cln::cosh(a);
+      case Op::tanh:
+        return cln::tanh(a);
+      case Op::exp:
+        return cln::exp(a);
+      case Op::log:
+        return real(cln::log(cln::cl_N(a)), program_, i);
+      case Op::asin:
+        return real(cln::asin(cln::cl_N(a)), program_, i);
+      case Op::acos:
+        return real(cln::acos(cln::cl_N(a)), program_, i);
+      case Op::abs:
+        return cln::abs(a);
+      case Op::sign:
+        return cln::signum(a);
+      default:
+        if (cln::zerop(a) && cln::zerop(b))
+          throw ModelError("the constant " + constant_text(program_, i) + " has no value");
+        return cln::atan(b, a);
+    }
+  }
+
+  const Program& program_;
+  cln::float_format_t format_;
+  const Limits& limits_;
+  std::map<int, cln::cl_R> values_;
+};
+
+/// The texts of constants, cut off behind a length: each instruction may stand in those of several.
+class ConstantText {
+ public:
+  explicit ConstantText(const Program& program) : program_(program) {}
+
+  std::string operator()(int i) {
+    if (left_ <= 0) return "..";
+    const std::string text = written(at(program_, i));
+    left_ -= 1;
+    return text;
+  }
+
+ private:
+  std::string written(const Instruction& code) {
+    switch (code.op) {
+      case Op::constant: {
+        std::ostringstream out;
+        out << number(program_, code);
+        left_ -= static_cast<long>(out.str().size());
+        return printable(out.str());
+      }
+      case Op::pi:
+        return "Pi";
+      case Op::add:
+        return binary(code, " + ");
+      case Op::sub:
+        return binary(code, " - ");
+      case Op::mul: {
+        const std::string a = (*this)(code.a);
+        return a + "*" + (*this)(code.b);
+      }
+      case Op::div: {
+        const std::string a = (*this)(code.a);
+        return a + "/" + (*this)(code.b);
+      }
+      case Op::pow: {
+        const std::string a = (*this)(code.a);
+        return a + "^(" + (*this)(code.b) + ")";
+      }
+      case Op::neg:
+        return "-" + (*this)(code.a);
+      case Op::atan2:
+        return "atan2" + binary(code, ", ");
+      case Op::abs:
+        return "|" + (*this)(code.a) + "|";
+      default:
+        return std::string(function_row(code.op).name) + "(" + (*this)(code.a) + ")";
+    }
+  }
+  std::string binary(const Instruction& code, const char* sign) {
+    const std::string a = (*this)(code.a);
+    return "(" + a + sign + (*this)(code.b) + ")";
+  }
+
+  const Program& program_;
+  long left_ = 400;
+};
 
 /// CLN says by errors of its own that a number is too large or too small for it.
 cln::cl_R value_with(const Program& program, int i, int digits, const Limits& limits) {
   try {
-    return checked(approximate(program, i, cln::float_format(digits), limits), program, i, limits);
+    return checked(Approximation(program, digits, limits)(i), program, i, limits);
   } catch (const cln::runtime_exception&) {
     throw ModelError("the constant " + printable(constant_text(program, i), 200) +
                      " is too large or too small");
@@ -162,35 +241,6 @@ cln::cl_RA constant_value(const Program& program, int i, const Limits& limits) {
   return 0;  // zero to four thousand digits, such as sqrt(2)*sqrt(3) - sqrt(6)
 }
 
-std::string constant_text(const Program& program, int i) {
-  const Instruction& code = at(program, i);
-  switch (code.op) {
-    case Op::constant: {
-      std::ostringstream out;
-      out << number(program, code);
-      return printable(out.str());
-    }
-    case Op::pi:
-      return "Pi";
-    case Op::add:
-      return binary(program, code, " + ");
-    case Op::sub:
-      return binary(program, code, " - ");
-    case Op::mul:
-      return constant_text(program, code.a) + "*" + constant_text(program, code.b);
-    case Op::div:
-      return constant_text(program, code.a) + "/" + constant_text(program, code.b);
-    case Op::pow:
-      return constant_text(program, code.a) + "^(" + constant_text(program, code.b) + ")";
-    case Op::neg:
-      return "-" + constant_text(program, code.a);
-    case Op::atan2:
-      return "atan2" + binary(program, code, ", ");
-    case Op::abs:
-      return "|" + constant_text(program, code.a) + "|";
-    default:
-      return std::string(function_row(code.op).name) + "(" + constant_text(program, code.a) + ")";
-  }
-}
+std::string constant_text(const Program& program, int i) { return ConstantText(program)(i); }
 
 }  // namespace casimir::codegen

@@ -91,6 +91,7 @@ class Substitution : public GiNaC::map_function {
     if (const auto it = values_.find(e); it != values_.end()) return it->second;
     if (e.nops() == 0) return e;
     if (const auto it = known_.find(e); it != known_.end()) return it->second;
+    if (is_atan2(e) && (*this)(e.op(0)).is_zero() && (*this)(e.op(1)).is_zero()) throw NoAngle();
     const ex result = GiNaC::is_a<GiNaC::power>(e)
                           ? checked_power((*this)(e.op(0)), (*this)(e.op(1)), limits_)
                           : e.map(*this);
@@ -98,6 +99,12 @@ class Substitution : public GiNaC::map_function {
   }
 
  private:
+  /// GiNaC's value of atan2(0, 0) is 0.
+  static bool is_atan2(const ex& e) {
+    return GiNaC::is_a<GiNaC::function>(e) && e.nops() == 2 &&
+           GiNaC::ex_to<GiNaC::function>(e).get_name() == "atan2";
+  }
+
   const GiNaC::exmap& values_;
   const Limits& limits_;
   std::unordered_map<ex, ex> known_;

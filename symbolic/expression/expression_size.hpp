@@ -36,8 +36,15 @@ inline GiNaC::ex normal_form(const GiNaC::ex& expression) {
 /// \throws TooLarge  where such a number would exceed the limit `bits`.
 GiNaC::ex checked_power(const GiNaC::ex& base, const GiNaC::ex& exponent, const Limits& limits);
 
+/// Of atan2(0, 0), which GiNaC takes for 0.
+class NoAngle : public GiNaC::pole_error {
+ public:
+  NoAngle() : GiNaC::pole_error("atan2(0, 0) has no value", 0) {}
+};
+
 /// `expression` with values put in, its powers checked.
 /// \throws TooLarge
+/// \throws NoAngle
 GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values,
                       const Limits& limits);
 

@@ -44,4 +44,12 @@ bool is_complex_constant(const ex& value) {
   return complex;
 }
 
+bool is_no_real_constant(const ex& value) {
+  for (auto part = value.preorder_begin(); part != value.preorder_end(); ++part)
+    if (GiNaC::is_a<GiNaC::symbol>(*part)) return false;
+  if (is_complex_constant(value)) return true;
+  const ex number = value.evalf();
+  return GiNaC::is_a<GiNaC::numeric>(number) && !GiNaC::ex_to<GiNaC::numeric>(number).is_real();
+}
+
 }  // namespace casimir

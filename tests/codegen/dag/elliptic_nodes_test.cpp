@@ -11,8 +11,10 @@
 #include <cmath>
 #include <map>
 
+#include "codegen/emit/number_literal.hpp"
 #include "codegen/optimise/optimise.hpp"
 #include "runtime/evaluate.hpp"
+#include "symbolic/error.hpp"
 #include "symbolic/expression/elliptic.hpp"
 
 namespace casimir::test {
@@ -70,6 +72,40 @@ TEST(EllipticNodes, OfCarlsonAreThoseOfBoost) {
     expect(generated("R_D", {x, y, z}), boost::math::ellint_rd(x, y, z));
     expect(generated("R_J", {x, y, z, 1.5}), boost::math::ellint_rj(x, y, z, 1.5));
     expect(generated("R_J", {x, y, z, 1e-3}), boost::math::ellint_rj(x, y, z, 1e-3));
+  }
+}
+
+/// Of numbers alone.
+double of_constants(const std::string& name, const GiNaC::exvector& arguments) {
+  codegen::Dag dag({}, 0);
+  const codegen::Scaled node = dag.convert(find_elliptic_function(name)->apply(arguments));
+  const Program program = codegen::optimised(dag, {node}, {}, {"value"});
+  return cln::double_approx(codegen::constant_value(program, program.outputs.front(), {}));
+}
+
+TEST(EllipticNodes, OfJacobiHaveNoValueAtTheModulusOne) {
+  for (const char* name : {"am", "sn", "cn", "dn"})
+    for (const double k : {-1., 1., 1.5}) EXPECT_TRUE(std::isnan(generated(name, {1, k}))) << name;
+  const GiNaC::symbol k("k");
+  for (const GiNaC::ex& value : {GiNaC::ex(1), GiNaC::ex(-1), GiNaC::ex(2)}) {
+    codegen::Dag dag({}, 0);
+    EXPECT_THROW(dag.convert(GiNaC::ex(elliptic::sn(1, k)).subs(k == value)), ModelError);
+  }
+}
+
+/// Written out each would be the three before, ten times over.
+TEST(EllipticNodes, OfConstantsAreNumbers) {
+  expect_near(of_constants("R_F", {1, 2, 3}), boost::math::ellint_rf(1., 2., 3.), "R_F");
+  expect_near(of_constants("R_D", {1, 2, 3}), boost::math::ellint_rd(1., 2., 3.), "R_D");
+  expect_near(of_constants("R_J", {1, 2, 3, GiNaC::numeric(1, 7)}),
+              boost::math::ellint_rj(1., 2., 3., 1. / 7), "R_J");
+  for (const int digits : {3, 6, 12}) {  // k = 1 - 10^-digits
+    const GiNaC::ex k = 1 - GiNaC::pow(GiNaC::numeric(10), -digits);
+    // sn(u, k) is tanh(u) up to (1 - k^2)/4 (sinh u cosh u - u) sech(u)^2 (DLMF 22.10.7).
+    const double u = 1.5, rest = 2 * std::pow(10., -digits);
+    const double expected =
+        std::tanh(u) + rest / 4 * (std::sinh(u) * std::cosh(u) - u) / std::pow(std::cosh(u), 2);
+    EXPECT_NEAR(of_constants("sn", {GiNaC::numeric(3, 2), k}), expected, rest * rest + 1e-15);
   }
 }
 

@@ -103,6 +103,25 @@ TEST(CancelledParts, EndARunWithTheTimesBetweenWhichTheyCease) {
   EXPECT_TRUE(solve(fine, fine.scene("default"), {}).ok());
 }
 
+/// What a parameter makes of them may be a constant that is no real number, or none at all.
+TEST(CancelledParts, OfAParameterHaveToBeReal) {
+  const auto motion_with = [](const std::string& rate, const std::string& value) {
+    const Model model = model_of(
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\"]\n[parameters]\na = {}\n"
+        "[equations]\nx = \"" +
+        rate + "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"1\" }\nparameters = { a = \"" +
+        value + "\" }\nduration = \"1\"\n");
+    return solve(model, model.scene("default"), {}).ok();
+  };
+  EXPECT_TRUE(motion_with("sqrt(a)*sqrt(a)", "2"));
+  EXPECT_THROW(motion_with("sqrt(a)*sqrt(a)", "-1"), ModelError);
+  EXPECT_TRUE(motion_with("acos(a) + acos(-a)", "1/2"));
+  EXPECT_THROW(motion_with("acos(a) + acos(-a)", "2"), ModelError);
+  EXPECT_TRUE(motion_with("1 + atan2(a, a)", "1"));
+  EXPECT_THROW(motion_with("1 + atan2(a, a)", "0"), ModelError);
+  EXPECT_THROW(motion_with("sn(1, a)", "1"), ModelError);
+}
+
 TEST(CancelledParts, ThatEveryStateHasAreNone) {
   const Model model = one_equation("x*2/2 + sqrt(4)", "1");
   EXPECT_TRUE(cancelled_parts(model, model.scene("default")).empty());

@@ -8,6 +8,7 @@
 #include "codegen/optimise/lower.hpp"
 #include "codegen/optimise/terms.hpp"
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/expression/principal_values.hpp"
 
 namespace casimir {
 namespace {
@@ -30,13 +31,18 @@ bool has_any(const ex& e, const std::vector<GiNaC::symbol>& symbols) {
 }
 
 ex bound(const Model& model, const Scene& scene, const ex& part) {
-  try {
-    return model.at_parameters(part, scene);
-  } catch (const GiNaC::pole_error&) {
-    throw ModelError(
+  const auto no_value = [&] {
+    return ModelError(
         fmt::format("scene \"{}\": {}, which the equations were written with, has no "
                     "value",
                     printable(scene.name), printable(expression_text(part), 80)));
+  };
+  try {
+    ex value = model.at_parameters(part, scene);
+    if (is_no_real_constant(value)) throw no_value();
+    return value;
+  } catch (const GiNaC::pole_error&) {
+    throw no_value();
   }
 }
 
