@@ -39,7 +39,7 @@ class ConstantParts {
   }
   void check(const ex& e) const {
     if (is_no_real_constant(model_.at_parameters(e, binding_)))
-      throw ModelError("'" + printable(expression_text(e), 80) + "' is no real number");
+      throw ModelError("'" + printable(expression_text(e), 80) + "' is not a real number");
   }
 
   const Model& model_;

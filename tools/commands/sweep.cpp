@@ -29,6 +29,7 @@
 #include "tools/sweep/mpi_ranks.hpp"
 #include "tools/sweep/study.hpp"
 #include "tools/sweep/table.hpp"
+#include "tools/text/runs/checked_members.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
@@ -86,6 +87,7 @@ struct SweepReport {
   std::string output;
   int threads = 1, lanes = 1;
   double seconds = 0;
+  std::vector<CheckedMember> checked = {};
   std::vector<std::string> warnings = {};
 };
 
@@ -114,6 +116,7 @@ Json sweep_json(const SweepReport& report) {
   json["jobs"] = report.threads;
   json["lanes"] = report.lanes;
   json["seconds"] = report.seconds;
+  if (!report.checked.empty()) json["checked"] = checked_json(report.checked, "point");
   json["warnings"] = report.warnings;
   return json;
 }
@@ -135,6 +138,8 @@ void print_sweep(const SweepReport& report) {
                                          : std::string{});
   for (const auto& [status, count] : counts_of(outcome.rows))
     fmt::print("  {:<16} {:>8}\n", status, count);
+  if (!report.checked.empty())
+    fmt::print("  {}\n", checked_text(report.checked, "point", report.outcome.rows.size()));
   for (const std::string& warning : report.warnings) fmt::print("  warning: {}\n", warning);
   if (!outcome.complete) return;
   fmt::print("  wrote {}\n", printable(report.output, 200));
@@ -231,7 +236,8 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
                      ranks,           outcome,
                      output,          options.jobs > 0 ? options.jobs : ranks.processors(),
                      p.study.lanes(), watch.seconds()};
-  report.warnings = p.study.warnings(outcome.rows, outcome.complete);
+  if (outcome.complete) report.checked = p.study.check(outcome.rows);
+  report.warnings = p.study.warnings(report.checked);
   if (options.common.json)
     print_json(sweep_json(report));
   else if (!options.common.quiet)

@@ -17,6 +17,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/tables/table.hpp"
 #include "tools/text/files/ensemble_file.hpp"
+#include "tools/text/runs/checked_members.hpp"
 #include "tools/text/runs/run_report.hpp"
 #include "tools/text/runs/trust_report.hpp"
 
@@ -37,6 +38,7 @@ struct EnsembleReport {
   const Settings& settings;
   const EnsembleKernel& kernel;
   const EnsembleResult& result;
+  const std::vector<CheckedMember>& checked;
   const std::vector<std::string>& warnings;
 
   const Specialisation& spec() const { return run.specialisation; }
@@ -157,6 +159,7 @@ Json to_json(const EnsembleReport& report) {
   json["instruction_set"] =
       report.kernel.lanes ? Json(report.kernel.lanes->instruction_set) : Json(nullptr);
   json["from_cache"] = report.kernel.from_cache;
+  json["checked"] = checked_json(report.checked, "member");
   json["warnings"] = report.warnings;
   return json;
 }
@@ -185,6 +188,8 @@ void print_text(const EnsembleReport& report) {
       if (k < member.invariants.size()) drift = std::max(drift, member.invariants[k].drift);
     fmt::print("  {:<16} largest drift {:.1e}\n", s.invariant_names[k], drift);
   }
+  if (!report.checked.empty())
+    fmt::print("  {}\n", checked_text(report.checked, "member", report.result.members.size()));
   for (const std::string& warning : report.warnings) fmt::print("  warning: {}\n", warning);
 }
 
@@ -197,9 +202,8 @@ std::vector<std::string> warnings_on(const EnsembleKernel& kernel, const Prepare
   if (!unwatched.empty()) warnings.push_back(unwatched);
   if (may_pass_over(run, settings)) warnings.emplace_back(kUnseenBetweenSteps);
   if (!kernel.warning.empty()) warnings.push_back(kernel.warning);
-  for (const CheckedMember& member : checked)
-    for (const std::string& warning : warnings_of(member.trust, settings.fixed_step > 0))
-      warnings.push_back(fmt::format("member {}: {}", member.member + 1, warning));
+  for (std::string& warning : warnings_of(checked, "member", settings.fixed_step > 0))
+    warnings.push_back(std::move(warning));
   return warnings;
 }
 
@@ -275,10 +279,10 @@ int integrate_ensemble(const EnsembleRequest& request) {
   } catch (const std::invalid_argument& problem) {
     throw UsageError(problem.what());
   }
+  const std::vector<CheckedMember> checked = check_members(run, method, settings, ensemble, result);
   const std::vector<std::string> warnings =
-      warnings_on(kernel, run, settings, check_members(run, method, settings, ensemble, result),
-                  unwatched_parts(model, scene));
-  const EnsembleReport report{run, method, settings, kernel, result, warnings};
+      warnings_on(kernel, run, settings, checked, unwatched_parts(model, scene));
+  const EnsembleReport report{run, method, settings, kernel, result, checked, warnings};
   if (!request.output.empty()) write_table(request.output, table_of(report));
   if (request.common.json) {
     print_json(to_json(report));

@@ -12,6 +12,7 @@
 #include "tools/analysis/sweep/rotations.hpp"
 #include "tools/analysis/sweep/sections.hpp"
 #include "tools/sweep/grid_options.hpp"
+#include "tools/text/runs/checked_members.hpp"
 #include "tools/text/runs/trust_report.hpp"
 
 namespace casimir::tools {
@@ -30,15 +31,13 @@ SceneOptions how_to_prepare(const Model& model, const Grid& grid, const StudyReq
   return how;
 }
 
-std::vector<std::string> warnings_on(const Integrations& task, const std::vector<PointResult>& rows,
-                                     bool complete) {
+std::vector<std::string> warnings_on(const Integrations& task,
+                                     const std::vector<CheckedMember>& checked) {
   std::vector<std::string> warnings;
   if (!task.warning().empty()) warnings.push_back(task.warning());
   if (task.passes_over()) warnings.emplace_back(kUnseenBetweenSteps);
-  if (!complete) return warnings;
-  for (const CheckedMember& point : task.check(rows))
-    for (const std::string& warning : warnings_of(point.trust, task.constant_step()))
-      warnings.push_back(fmt::format("point {}: {}", point.member + 1, warning));
+  for (std::string& warning : warnings_of(checked, "point", task.constant_step()))
+    warnings.push_back(std::move(warning));
   return warnings;
 }
 
@@ -104,11 +103,15 @@ int SweepStudy::lanes() const {
   return integrations ? integrations->lanes() : 1;
 }
 
-std::vector<std::string> SweepStudy::warnings(const std::vector<PointResult>& rows,
-                                              bool complete) const {
+std::vector<CheckedMember> SweepStudy::check(const std::vector<PointResult>& rows) const {
+  const auto* integrations = dynamic_cast<const Integrations*>(task_.get());
+  return integrations ? integrations->check(rows) : std::vector<CheckedMember>{};
+}
+
+std::vector<std::string> SweepStudy::warnings(const std::vector<CheckedMember>& checked) const {
   std::vector<std::string> result;
   if (const auto* integrations = dynamic_cast<const Integrations*>(task_.get()))
-    result = warnings_on(*integrations, rows, complete);
+    result = warnings_on(*integrations, checked);
   if (const auto* indicators = dynamic_cast<const Indicators*>(task_.get()))
     result = warnings_on(*indicators);
   if (std::string unwatched = unwatched_parts(model_, scene_); !unwatched.empty())

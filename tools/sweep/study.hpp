@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "symbolic/model.hpp"
+#include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run_request.hpp"
 #include "tools/analysis/section/problem.hpp"
 #include "tools/analysis/sweep/grid.hpp"
@@ -45,10 +46,13 @@ class SweepStudy {
   /// Points that are integrated at a time in one register.
   int lanes() const;
 
+  /// Integrates some points again by themselves, with an estimate of their errors; none of a task
+  /// that is no integration.
+  /// \param rows  of all points
+  std::vector<CheckedMember> check(const std::vector<PointResult>& rows) const;
   /// What is in doubt of the results: sentences.
-  /// \param rows      of all points, where they are complete: some are checked again by themselves.
-  /// \param complete  whether they are
-  std::vector<std::string> warnings(const std::vector<PointResult>& rows, bool complete) const;
+  /// \param checked  of `check`, where it could be made
+  std::vector<std::string> warnings(const std::vector<CheckedMember>& checked) const;
 
  private:
   std::unique_ptr<SweepTask> task_of(const StudyRequest& asked) const;

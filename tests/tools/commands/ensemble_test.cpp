@@ -153,6 +153,21 @@ TEST(EnsembleFile, WhatRoundingDecidesIsAWarning) {
   EXPECT_TRUE(calm.json().at("warnings").empty()) << calm.json().at("warnings");
 }
 
+/// .. and which these are is said.
+TEST(EnsembleFile, SaysWhichMembersHaveAnEstimate) {
+  const Folder folder;
+  const std::string five = "M1\n1\n2\n3\n4\n5\n";
+  const auto checked = members(folder, five, {"integrate", "euler", "--json"}).json().at("checked");
+  ASSERT_EQ(checked.size(), 3U) << checked;
+  EXPECT_EQ(checked[0].at("member"), 1);
+  EXPECT_EQ(checked[2].at("member"), 5);
+  for (const auto& member : checked) EXPECT_LT(member.at("error_estimate"), 1e-8);
+  const Outcome text = members(folder, five, {"integrate", "euler"});
+  EXPECT_NE(text.out.find("errors estimated of members 1, 4, 5 alone: at most about "),
+            std::string::npos)
+      << text.out;
+}
+
 /// x = 1 - sqrt(1 - 2t): the field points at the pole from both sides, so that steps of a loose
 /// tolerance would go over it, and come back.
 TEST(EnsembleFile, MembersEndAtPolesAtEveryTolerance) {
