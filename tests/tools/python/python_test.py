@@ -308,6 +308,17 @@ class Runs(unittest.TestCase):
             casimir.load("euler").integrate(method="dop835")
         self.assertIn("dop853", str(caught.exception))
 
+    def test_complex_numbers_and_bare_starts_are_refused(self):
+        top = casimir.load("euler")
+        start = top.system().initial
+        for call in (lambda: top.system().rhs(0, start + 1j), lambda: top.system().flow(start + 1j, 1),
+                     lambda: top.ensemble([start + 1j, start])):
+            with self.assertRaisesRegex(TypeError, "complex"):
+                call()
+        with self.assertRaisesRegex(TypeError, "names with their values"):
+            top.integrate(initial=[1, 2, 3])
+        self.assertEqual(top.system().rhs(0, [1, 2, 3]).shape, (3,))
+
     def test_an_ensemble_is_its_members(self):
         top = casimir.load("kovalevskaya")
         start = top.system().initial

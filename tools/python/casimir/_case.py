@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 from . import _core
 from ._errors import NoAnswer, RequestError
-from ._exact import Expression, is_float, pairs_of, text_of, texts_of
+from ._exact import Expression, is_float, pairs_of, reals, text_of, texts_of
 from ._lazy import Lazy
 from ._progress import Progress, told
 from ._system import System
@@ -198,8 +198,9 @@ class Case:
 
         A start of floats may be off the levels of the case by their rounding; exact numbers may not.
         """
+        starts = pairs_of(initial)
         rounded = any(is_float(value) for value in (initial or {}).values())
-        return Case._of(self._core.with_values(pairs_of(parameters), pairs_of(initial), rounded))
+        return Case._of(self._core.with_values(pairs_of(parameters), starts, rounded))
 
     def in_variables(self, variables: str) -> Case:
         """The case in other variables: equations, integrals and scenes, carried along the maps of the bundled cases.
@@ -470,8 +471,8 @@ class Case:
         """
         import numpy
 
-        case = self.with_values(parameters, initial) if parameters or initial else self
-        times = None if t_eval is None else numpy.atleast_1d(numpy.asarray(t_eval, dtype=float))
+        case = self if parameters is None and initial is None else self.with_values(parameters, initial)
+        times = None if t_eval is None else numpy.atleast_1d(reals(t_eval))
         if times is not None and (times.ndim != 1 or times.size == 0 or not numpy.isfinite(times).all()):
             raise RequestError("t_eval is a list of times")
         if times is not None and duration is None:
@@ -503,7 +504,7 @@ class Case:
         """
         import numpy
 
-        initial = numpy.ascontiguousarray(initial, dtype=float)
+        initial = reals(initial)
         names = list(parameters or {})
         values = numpy.empty((len(initial), len(names)))
         for column, name in enumerate(names):
@@ -542,7 +543,7 @@ class Case:
         >>> end.state["x"]
         Decimal('2.718281828459045235360287471352662497757')
         """
-        case = self.with_values(parameters, initial) if parameters or initial else self
+        case = self if parameters is None and initial is None else self.with_values(parameters, initial)
         return _measured.precise_of(
             _core.precise(case._core, scene, digits, None if duration is None else text_of(duration), time_limit,
                           told(progress)))
@@ -566,7 +567,7 @@ class Case:
         >>> box.success, box.radius < 1e-10
         (True, True)
         """
-        case = self.with_values(parameters, initial) if parameters or initial else self
+        case = self if parameters is None and initial is None else self.with_values(parameters, initial)
         intervals = [(str(name), (text_of(low), text_of(high))) for name, (low, high) in (ranges or {}).items()]
         facts = _core.enclosed(case._core, scene, None if duration is None else text_of(duration),
                                text_of(initial_radius), intervals, digits,
@@ -693,7 +694,7 @@ class Case:
         >>> cycle.order, cycle.closure < 1e-12
         (2, True)
         """
-        case = self.with_values(parameters, initial) if parameters or initial else self
+        case = self if parameters is None and initial is None else self.with_values(parameters, initial)
         facts = _core.symmetric_cycle(case._core, scene, pairs_of(symmetry), period, keep_period, tolerance, time_limit)
         found, reason = facts.pop("found"), facts.pop("reason")
         if not found:
@@ -773,7 +774,7 @@ def _rows(states: ArrayLike | None) -> list[list[float]]:
 
     if states is None:
         return []
-    rows = numpy.atleast_2d(numpy.asarray(states, dtype=float))
+    rows = numpy.atleast_2d(reals(states))
     if rows.ndim != 2 or rows.size == 0:
         raise RequestError("seeds are an array with a row for each orbit")
     return rows.tolist()

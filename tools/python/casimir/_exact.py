@@ -6,9 +6,12 @@ import math
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from numbers import Rational
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Union
 
 from ._errors import RequestError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 #: What stands for an exact number or an expression: text in the notation of case files, an integer,
 #: a fraction, a float (which is exactly the number that it is: 0.1 is not 1/10), or a SymPy expression.
@@ -59,7 +62,19 @@ def texts_of(values: Expression | Iterable[Expression] | None) -> list[str]:
 
 def pairs_of(values: Mapping[str, Expression] | None) -> list[tuple[str, str]]:
     """Names with expressions."""
+    if not isinstance(values, (Mapping, type(None))):
+        raise TypeError(f"names with their values are expected, {{'x': 1}}, and not {type(values).__name__}")
     return [(str(name), text_of(value)) for name, value in (values or {}).items()]
+
+
+def reals(values: ArrayLike) -> NDArray:
+    """An array of doubles, one row after the other; of complex numbers NumPy would drop a part."""
+    import numpy
+
+    array = numpy.asarray(values)
+    if numpy.iscomplexobj(array):
+        raise TypeError("an array of complex numbers, where real ones are expected")
+    return numpy.ascontiguousarray(array, dtype=float)
 
 
 def number_of(text: str) -> Fraction | str:

@@ -98,8 +98,9 @@ class Map:
     def with_values(self, parameters: Mapping[str, Expression] | None = None,
                     initial: Mapping[str, Expression] | None = None) -> Map:
         """The map with numbers in the place of parameters, and other starts in its scenes."""
+        starts = pairs_of(initial)
         rounded = any(is_float(value) for value in (initial or {}).values())
-        return Map._of(self._core.with_values(pairs_of(parameters), pairs_of(initial), rounded))
+        return Map._of(self._core.with_values(pairs_of(parameters), starts, rounded))
 
     def verify(self, integral: Expressions = None, *, casimir: Expressions = None,
                invariant_relation: Expressions = None, identity: Expressions = None, on: Expressions = None,
@@ -141,7 +142,7 @@ class Map:
         >>> orbit.y.shape
         (2, 11)
         """
-        case = self.with_values(parameters, initial) if parameters or initial else self
+        case = self if parameters is None and initial is None else self.with_values(parameters, initial)
         return _results.Iterates(**case._core.iterate(scene, steps, every, time_limit))
 
 

@@ -10,8 +10,13 @@
 
 namespace casimir::python {
 
-/// An array of numbers, one row after the other.
-using Doubles = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+/// An array of numbers, one row after the other. Of complex ones NumPy would drop a part: they are
+/// refused.
+class Doubles
+    : public pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast> {
+ public:
+  using array_t::array_t;
+};
 /// A number, or None.
 using Choice = std::optional<double>;
 
@@ -36,3 +41,19 @@ auto settled(const Work& work) {
 }
 
 }  // namespace casimir::python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<casimir::python::Doubles> : pyobject_caster<casimir::python::Doubles> {
+  bool load(handle source, bool) {
+    if (isinstance<array>(source) && reinterpret_borrow<array>(source).dtype().kind() == 'c')
+      throw type_error("an array of complex numbers, where real ones are expected");
+    const auto numbers = casimir::python::Doubles::ensure(source);
+    if (!numbers) PyErr_Clear();
+    if (numbers) value = reinterpret_borrow<casimir::python::Doubles>(numbers);
+    return static_cast<bool>(numbers);
+  }
+};
+
+}  // namespace pybind11::detail

@@ -79,7 +79,8 @@ py::object sweep(const Case& self, const std::string& scene, const std::string& 
       const std::vector<PointResult> rows = points_of(study, jobs, interrupt, time_limit(seconds));
       const bool complete = std::ranges::none_of(
           rows, [](const PointResult& row) { return row.status == Status::stopped; });
-      const Names warnings = study.warnings(rows, complete);
+      const Names warnings =
+          study.warnings(complete ? study.check(rows) : std::vector<CheckedMember>{});
       const py::gil_scoped_acquire python;
       interrupt.raise();
       result = to_python(study, rows, warnings);
