@@ -179,7 +179,7 @@ TEST(Specialise, UnknownNamesAndDivisionsByZeroAreErrors) {
             "scene \"default\" (a = 2, b = 2): du cannot be computed: division by zero");
   EXPECT_EQ(error_of(equations(rates, field + "{ a = \"2\", b = \"3\" }")), "");
   EXPECT_NE(error_of(equations({{"u", "sqrt(a - b)*u"}}, field + "{ a = \"2\", b = \"3\" }"))
-                .find("'sqrt(a - b)' is not a real number"),
+                .find("is not a real number"),
             std::string::npos);
 }
 
