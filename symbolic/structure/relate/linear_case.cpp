@@ -55,6 +55,18 @@ std::vector<Terms> terms_of(const Model& model, const std::vector<GiNaC::ex>& fu
   return result;
 }
 
+/// Maps of other skew products are no isomorphisms of Poisson brackets.
+void require_jacobi(const Model& model) {
+  const std::size_t n = model.variables.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (std::size_t k = j + 1; k < n; ++k)
+        if (!model.poisson->jacobi_defect(i, j, k).expand().is_zero())
+          throw ModelError(fmt::format(
+              "{}: the bracket does not obey the Jacobi identity, and is no Poisson bracket",
+              model.name));
+}
+
 LinearCase linear_case(const Model& model, bool with_hamiltonian) {
   if (!model.poisson)
     throw ModelError(fmt::format("{} has no bracket: its equations are given alone", model.name));
@@ -69,6 +81,7 @@ LinearCase linear_case(const Model& model, bool with_hamiltonian) {
       functions.push_back((*model.poisson)(i, j));
   if (with_hamiltonian) functions.push_back(*model.hamiltonian);
   result.upper = terms_of(model, functions);
+  require_jacobi(model);
   if (with_hamiltonian) {
     result.hamiltonian = std::move(result.upper.back());
     result.upper.pop_back();

@@ -107,6 +107,11 @@ TEST(Relate, BringsConstantBracketsToNormalForm) {
   EXPECT_EQ(brackets(canonical, scaled), Verdict::proved);
 }
 
+TEST(Relate, IsAboutPoissonBracketsAlone) {
+  const Model none = constants("c", "b", "a");
+  EXPECT_THROW(relate(none, none, false), ModelError);
+}
+
 TEST(Relate, AsksForNumbersInPlaceOfParameters) {
   EXPECT_THROW(relate(bundled("euler"), bundled("euler"), true), ModelError);
 }
