@@ -378,7 +378,7 @@ std::optional<GenericRank> gradient_rank(Prover& prover, const std::vector<Polyn
   return generic_rank(prover, rows, [&] {
     std::vector<KernelCandidate> candidates;
     if (!prover.model().poisson) {
-      if (!prover.model().field.empty()) candidates.push_back({prover.field()});  // a map has none
+      if (prover.has_motion()) candidates.push_back({prover.field()});
       return candidates;
     }
     for (std::size_t j = 0; j < rows.size(); ++j) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 #include <sstream>
+#include <stdexcept>
 
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/expression/pairs.hpp"
@@ -245,6 +246,7 @@ Polynomial Prover::bracket(const ex& f, const ex& g) {
 }
 
 Polynomial Prover::rate(const Polynomial& f) const {
+  if (!has_motion()) throw std::logic_error("a claim about the motion is not declared as one");
   Polynomial result = along(f, field());
   if (model_.time) result += ring_.derivative(f, dimension() + model_.parameters.size());
   return result;

@@ -68,6 +68,9 @@ class Prover {
   const Polynomial& bracket_entry(std::size_t i, std::size_t j) const {
     return used(brackets_[i * dimension() + j]);
   }
+  /// Whether there are equations of motion, and the claim is about them: else there is no `field`,
+  /// and no `rate`.
+  bool has_motion() const { return field_.size() == dimension(); }
   /// dx_i/dt for every coordinate.
   const std::vector<Polynomial>& field() const;
   Polynomial bracket(const Polynomial& f, const Polynomial& g) const;

@@ -23,7 +23,7 @@ void decide_independence(Prover& prover, Proof& proof,
   const auto kernel = [&] {
     std::vector<KernelCandidate> candidates;
     if (!prover.model().poisson) {
-      if (!prover.model().field.empty()) candidates.push_back({prover.field()});  // a map has none
+      if (prover.has_motion()) candidates.push_back({prover.field()});
       return candidates;
     }
     for (const NamedExpression& f : functions) {

@@ -249,6 +249,7 @@ std::vector<Claim> liouville_claims(const Model& model) {
   claims.push_back(claims.front());
   claims.back().name = "superintegrability";
   claims.back().decide = decide_superintegrability;
+  claims.back().subject = Subject::motion;  // it asks which functions are integrals
   return claims;
 }
 

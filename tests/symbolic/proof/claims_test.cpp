@@ -301,6 +301,19 @@ TEST(Superintegrable, NeedsOneMore) {
                CaseError);
 }
 
+// A root gives each claim a prover of its own, which has to have the motion.
+TEST(Superintegrable, KeplersProblemIs) {
+  const std::string kepler =
+      "superintegrable = true\nhamiltonian = \"(p1^2 + p2^2)/2 - 1/sqrt(q1^2 + q2^2)\"\n"
+      "[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", \"p2\"]\ncanonical = true\n[integrals]\n"
+      "L = \"q1*p2 - q2*p1\"\n";
+  const std::string vector = "A = \"p2*(q1*p2 - q2*p1) - q1/sqrt(q1^2 + q2^2)\"\n";
+  EXPECT_EQ(proof_of(model_of(kepler + vector), "liouville", "superintegrability").verdict,
+            Verdict::proved);
+  EXPECT_EQ(proof_of(model_of(kepler), "liouville", "superintegrability").verdict,
+            Verdict::undecided);
+}
+
 // H, q3, p3, q4 and p4 are five integrals on leaves of dimension eight, and the motion of q1 and q2
 // is that of Henon and Heiles.
 TEST(Superintegrable, NeedsEnoughThatCommute) {
