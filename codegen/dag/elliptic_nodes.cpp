@@ -1,11 +1,22 @@
 #include "codegen/dag/elliptic_nodes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "symbolic/error.hpp"
 
 namespace casimir::codegen {
 namespace {
 
-constexpr int kMeans = 7, kDuplications = 10, kShortDuplications = 8;
+/// Of a modulus that is a double, k' is 1e-8 at least, and after eight means nothing is left of
+/// what they differ by.
+constexpr int kMeans = 8, kDuplications = 10, kShortDuplications = 8;
+/// A p of R_J that is larger than the other arguments comes down to a quarter each time: these are
+/// for 10^8 times as large.
+constexpr int kDuplicationsOfThirdKind = 18;
+/// Where the arguments of Carlson's integrals differ from their mean by this part, series of
+/// seventh order have all digits of a double.
+constexpr double kNear = 0.01;
 
 /// Sums and products of nodes as they are written.
 class Terms {
@@ -34,6 +45,44 @@ class Terms {
 };
 
 cln::cl_RA ratio(int top, int bottom) { return cln::cl_RA(top) / bottom; }
+
+/// How many means bring 1 and the complementary modulus together.
+int means_of(const Scaled& k) {
+  if (k.node != Dag::kOne) return kMeans;
+  const cln::cl_RA square = 1 - k.coefficient * k.coefficient;
+  double q = std::sqrt(cln::double_approx(square));
+  int means = 1;
+  for (constexpr double kSame = 1e-9; 1 - q > kSame; ++means) q = 2 * std::sqrt(q) / (1 + q);
+  return std::max(means, kMeans);
+}
+
+/// How many duplications bring arguments together; constants need more where their sizes differ.
+/// \throws ModelError  where one is not positive
+int duplications_of(const std::vector<Scaled>& arguments) {
+  constexpr std::size_t kInSum = 3;  // the last of R_J is in no product of roots
+  std::vector<double> x;
+  for (const Scaled& argument : arguments) {
+    if (argument.node != Dag::kOne) continue;
+    if (!cln::plusp(argument.coefficient))
+      throw ModelError("Carlson's integrals need positive arguments");
+    x.push_back(cln::double_approx(argument.coefficient));
+  }
+  if (x.size() < arguments.size())
+    return arguments.size() > kInSum ? kDuplicationsOfThirdKind : kDuplications;
+  int count = 0;
+  for (constexpr int kMost = 600; count < kMost; ++count) {
+    double sum = 0;
+    for (const double own : x) sum += own;
+    const double mean = sum / static_cast<double>(x.size());
+    if (std::ranges::all_of(x, [&](double own) { return std::abs(own - mean) < kNear * mean; }))
+      break;
+    double lambda = 0;
+    for (std::size_t i = 0; i < kInSum; ++i)
+      for (std::size_t j = 0; j < i; ++j) lambda += std::sqrt(x[i]) * std::sqrt(x[j]);
+    for (double& own : x) own = (own + lambda) / 4;
+  }
+  return std::max(count, kDuplications);
+}
 
 /// A number with what of its powers a series needs.
 Scaled seventh_order(const Terms& t, const Scaled& e2, const Scaled& e3, const Scaled& e4,
@@ -68,10 +117,10 @@ Scaled first_kind(const Terms& t, Scaled x, Scaled y, Scaled z, int duplications
 }
 
 /// DLMF 19.36.2, with R_D(x, y, z) = R_J(x, y, z, z).
-Scaled second_kind(const Terms& t, Scaled x, Scaled y, Scaled z) {
+Scaled second_kind(const Terms& t, Scaled x, Scaled y, Scaled z, int duplications) {
   std::vector<Scaled> sum;
   cln::cl_RA quarter = 1;
-  for (int n = 0; n < kDuplications; ++n) {
+  for (int n = 0; n < duplications; ++n) {
     const Scaled a = t.root(x), b = t.root(y), c = t.root(z);
     const Scaled lambda = t.sum({t.product({a, b}), t.product({b, c}), t.product({a, c})});
     sum.push_back(t.times(3 * quarter, t.power(t.product({c, t.sum({z, lambda})}), -1)));
@@ -93,11 +142,11 @@ Scaled second_kind(const Terms& t, Scaled x, Scaled y, Scaled z) {
 }
 
 /// Carlson (1995), with R_C(1, 1 + e) = R_F(1, 1 + e, 1 + e).
-Scaled third_kind(const Terms& t, Scaled x, Scaled y, Scaled z, Scaled p) {
+Scaled third_kind(const Terms& t, Scaled x, Scaled y, Scaled z, Scaled p, int duplications) {
   const Scaled delta = t.product({t.minus(p, x), t.minus(p, y), t.minus(p, z)});
   std::vector<Scaled> sum;
   cln::cl_RA quarter = 1;
-  for (int n = 0; n < kDuplications; ++n) {
+  for (int n = 0; n < duplications; ++n) {
     const Scaled a = t.root(x), b = t.root(y), c = t.root(z), r = t.root(p);
     const Scaled d = t.product({t.sum({r, a}), t.sum({r, b}), t.sum({r, c})});
     const Scaled e = t.times(quarter * quarter * quarter, t.over(delta, t.power(d, 2)));
@@ -132,14 +181,15 @@ Scaled amplitude(const Terms& t, const Scaled& u, const Scaled& k) {
   Scaled a = t.one();
   Scaled q = t.root(t.product({t.minus(t.one(), k), t.sum({t.one(), k})}));
   std::vector<Scaled> ratios;
-  for (int n = 0; n < kMeans; ++n) {
+  const int means = means_of(k);
+  for (int n = 0; n < means; ++n) {
     const Scaled sum = t.sum({t.one(), q});
     ratios.push_back(t.over(t.minus(t.one(), q), sum));
     a = t.times(ratio(1, 2), t.product({a, sum}));
     q = t.times(2, t.over(t.root(q), sum));
   }
   // By now q is 1; where k is 1, it is 0, and there is no angle.
-  Scaled angle = t.times(1 << kMeans, t.product({t.over(a, q), u}));
+  Scaled angle = t.times(1 << means, t.product({t.over(a, q), u}));
   for (std::size_t n = ratios.size(); n-- > 0;) {
     const Scaled bent = t.call(Op::asin, t.product({ratios[n], t.call(Op::sin, angle)}));
     angle = t.times(ratio(1, 2), t.sum({angle, bent}));
@@ -151,9 +201,13 @@ Scaled amplitude(const Terms& t, const Scaled& u, const Scaled& k) {
 
 Scaled elliptic_node(Dag& dag, const std::string& name, const std::vector<Scaled>& arguments) {
   const Terms t(dag);
-  if (name == "R_F") return first_kind(t, arguments[0], arguments[1], arguments[2], kDuplications);
-  if (name == "R_D") return second_kind(t, arguments[0], arguments[1], arguments[2]);
-  if (name == "R_J") return third_kind(t, arguments[0], arguments[1], arguments[2], arguments[3]);
+  if (name == "R_F")
+    return first_kind(t, arguments[0], arguments[1], arguments[2], duplications_of(arguments));
+  if (name == "R_D")
+    return second_kind(t, arguments[0], arguments[1], arguments[2], duplications_of(arguments));
+  if (name == "R_J")
+    return third_kind(t, arguments[0], arguments[1], arguments[2], arguments[3],
+                      duplications_of(arguments));
   const Scaled& k = arguments[1];
   if (k.node == Dag::kOne && cln::abs(k.coefficient) >= 1)
     throw ModelError(

@@ -72,6 +72,7 @@ TEST(EllipticNodes, OfCarlsonAreThoseOfBoost) {
     expect(generated("R_D", {x, y, z}), boost::math::ellint_rd(x, y, z));
     expect(generated("R_J", {x, y, z, 1.5}), boost::math::ellint_rj(x, y, z, 1.5));
     expect(generated("R_J", {x, y, z, 1e-3}), boost::math::ellint_rj(x, y, z, 1e-3));
+    if (x > 0.1) expect(generated("R_J", {x, y, z, 1e8}), boost::math::ellint_rj(x, y, z, 1e8));
   }
 }
 
@@ -99,6 +100,16 @@ TEST(EllipticNodes, OfConstantsAreNumbers) {
   expect_near(of_constants("R_D", {1, 2, 3}), boost::math::ellint_rd(1., 2., 3.), "R_D");
   expect_near(of_constants("R_J", {1, 2, 3, GiNaC::numeric(1, 7)}),
               boost::math::ellint_rj(1., 2., 3., 1. / 7), "R_J");
+  // mpmath's, of a p that is far from the others.
+  expect_near(of_constants("R_J", {1, 2, 3, GiNaC::pow(GiNaC::numeric(10), 8)}) * 1e8,
+              2.18036665160537, "R_J");
+  for (const GiNaC::exvector& none : {GiNaC::exvector{0, 0, 1}, GiNaC::exvector{1, 1, -1}}) {
+    EXPECT_THROW(of_constants("R_F", none), ModelError);
+    EXPECT_THROW(of_constants("R_D", none), ModelError);
+  }
+  // sn(u, k) of a modulus that no double tells from 1, where u is as large as the period's part.
+  expect_near(of_constants("sn", {GiNaC::numeric(33), 1 - GiNaC::pow(GiNaC::numeric(10), -30)}),
+              std::tanh(33.), "sn");
   for (const int digits : {3, 6, 12}) {  // k = 1 - 10^-digits
     const GiNaC::ex k = 1 - GiNaC::pow(GiNaC::numeric(10), -digits);
     // sn(u, k) is tanh(u) up to (1 - k^2)/4 (sinh u cosh u - u) sech(u)^2 (DLMF 22.10.7).
