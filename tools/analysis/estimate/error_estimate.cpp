@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "runtime/step/step_watch.hpp"
+#include "symbolic/error.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/closed_form_error.hpp"
@@ -132,17 +133,41 @@ class Neighbours {
     });
   }
 
-  /// The same for a parameter at run time.
-  std::optional<double> growth_of_parameter(std::size_t j) const {
-    return growth([&](double change) {
-      PreparedScene moved = run_;  // where nothing is compiled, the module holds the parameters
-      moved.parameters[j] *= 1 + change;
-      return integrate(compile_for(moved, method_).module, method_, tight_, moved.initial,
-                       moved.parameters);
+  /// How far the end is moved by the rounding of a parameter at run time: by what a larger change
+  /// grows to, or by the next doubles on both sides, where these move it far more: cos(a) of a
+  /// giant a turns over and over within that change. Infinite where a run fails.
+  double moved_by_parameter(std::size_t j) const {
+    const double rounding = std::abs(run_.parameter_rounding[j] / run_.parameters[j]);
+    constexpr double kFarMore = 30, kRoundings = 1000;
+    double nearby = 0;
+    for (const double side : {-HUGE_VAL, HUGE_VAL}) {
+      const auto other = with_parameter(j, std::nextafter(run_.parameters[j], side));
+      if (!other || other->status != Status::ok) return HUGE_VAL;
+      nearby = std::max(nearby, distance(other->state, better_.state, sizes_));
+    }
+    const auto grown = growth([&](double change) {
+      Trajectory none;
+      none.status = Status::non_finite;
+      return with_parameter(j, run_.parameters[j] * (1 + change)).value_or(none);
     });
+    const double foreseen = grown ? *grown * rounding : 0;
+    const bool is_more = nearby > kFarMore * std::max(foreseen, kRoundings * kRoundoff);
+    return !grown || is_more ? std::max(nearby, foreseen) : foreseen;
   }
 
  private:
+  /// Nothing where the equations have no value at that parameter.
+  std::optional<Trajectory> with_parameter(std::size_t j, double value) const {
+    PreparedScene moved = run_;  // where nothing is compiled, the module holds the parameters
+    moved.parameters[j] = value;
+    try {
+      return integrate(compile_for(moved, method_).module, method_, tight_, moved.initial,
+                       moved.parameters);
+    } catch (const ModelError&) {
+      return std::nullopt;
+    }
+  }
+
   template <class NeighbourAt>
   std::optional<double> growth(const NeighbourAt& neighbour_at) const {
     double largest = 0;
@@ -369,8 +394,9 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     trust.input_rounding += flow->columns[j] * std::abs(run.rounding[j]) / sizes[j];
   for (std::size_t j = 0; repeated && j < run.parameters.size(); ++j) {
     if (run.parameter_rounding[j] == 0) continue;
-    const double own = neighbours.growth_of_parameter(j).value_or(growth);
-    trust.input_rounding += own * std::abs(run.parameter_rounding[j] / run.parameters[j]);
+    const double moved = neighbours.moved_by_parameter(j);
+    trust.unconfirmed = trust.unconfirmed || std::isinf(moved);
+    if (std::isfinite(moved)) trust.input_rounding += moved;
   }
   if (repeated && trajectory.seconds < budget)
     trust.input_rounding = std::max(trust.input_rounding, unforeseen(neighbours, run, flow, sizes));

@@ -31,15 +31,20 @@ CompiledModule module_of(const PreparedScene& own, const Method& method) {
 
 }  // namespace
 
-std::vector<std::size_t> members_to_check(std::size_t members,
-                                          const std::function<bool(std::size_t)>& ended) {
+std::vector<std::size_t> members_to_check(
+    std::size_t members, const std::function<bool(std::size_t)>& ended,
+    const std::function<unsigned long long(std::size_t)>& steps) {
   constexpr double kGoldenSection = 0.6180339887498949;
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < members; ++i)
     if (ended(i)) all.push_back(i);
   if (all.empty()) return {};
   const double between = kGoldenSection * static_cast<double>(all.size());
-  const std::set<std::size_t> some{all.front(), all[static_cast<std::size_t>(between)], all.back()};
+  std::set<std::size_t> some{all.front(), all[static_cast<std::size_t>(between)], all.back()};
+  constexpr unsigned long long kByFar = 4;
+  const std::size_t longest = *std::ranges::max_element(all, {}, steps);
+  const std::size_t among = *std::ranges::min_element(some, {}, steps);
+  if (steps(longest) > kByFar * steps(among)) some.insert(longest);
   return {some.begin(), some.end()};
 }
 
@@ -50,7 +55,8 @@ std::vector<CheckedMember> check_members(const PreparedScene& run, const Method&
   std::vector<CheckedMember> checked;
   bool too_slow = false;  // one was: the others take as long
   const auto ended = [&](std::size_t i) { return result.members[i].status == Status::ok; };
-  for (const std::size_t member : members_to_check(result.members.size(), ended)) {
+  const auto steps = [&](std::size_t i) { return result.members[i].steps; };
+  for (const std::size_t member : members_to_check(result.members.size(), ended, steps)) {
     CheckedMember& found = checked.emplace_back(CheckedMember{member, {}});
     if (too_slow) {
       found.trust.known = found.trust.unconfirmed = true;

@@ -15,10 +15,12 @@ struct CheckedMember {
 };
 
 /// The members that are checked: the first, the last and one between them of those that reached the
-/// end, in their order.
+/// end, in their order, and the one that took most steps by far: something was in its way.
 /// \param ended  whether a member of this number reached it
-std::vector<std::size_t> members_to_check(std::size_t members,
-                                          const std::function<bool(std::size_t)>& ended);
+/// \param steps  how many it took
+std::vector<std::size_t> members_to_check(
+    std::size_t members, const std::function<bool(std::size_t)>& ended,
+    const std::function<unsigned long long(std::size_t)>& steps);
 
 /// Integrates some members again by themselves, each for no more than about `budget` seconds, with
 /// an estimate of their errors: `members_to_check`. One that does not reach the end in that time is

@@ -75,7 +75,7 @@ bool is_finite(const std::vector<double>& x) {
 
 /// An orbit like that to the state `end`, but with random errors of one unit of the last digit: how
 /// far its end is from that, as of Iterated. Of a long orbit the first and the last steps have them
-/// in all operations, those between in the state alone.
+/// in all operations, and some of those between, all along; the others in the state alone.
 double distance_of_disturbed(const Module& module, const PreparedScene& run, std::uint64_t steps,
                              const std::vector<double>& end, std::uint64_t seed) {
   const auto& step = module.functions().rhs;
@@ -94,9 +94,10 @@ double distance_of_disturbed(const Module& module, const PreparedScene& run, std
                                 : 1 - std::numeric_limits<double>::epsilon();
     }
   };
+  const std::uint64_t stride = steps / std::max<std::uint64_t>(1, in_all_operations) + 1;
   disturb();
   for (std::uint64_t k = 0; k < steps; ++k) {
-    if (k < in_all_operations || steps - k <= in_all_operations)
+    if (k < in_all_operations || steps - k <= in_all_operations || k % stride == 0)
       disturbed(state, run.parameters, random, next);
     else
       step(0, state.data(), run.parameters.data(), next.data());

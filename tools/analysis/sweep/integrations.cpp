@@ -57,14 +57,16 @@ Ensemble Integrations::members(const std::vector<std::size_t>& points) const {
 
 std::vector<CheckedMember> Integrations::check(const std::vector<PointResult>& rows) const {
   const std::size_t states = run_.specialisation.states.size();
-  const std::vector<std::size_t> points =
-      members_to_check(rows.size(), [&](std::size_t i) { return rows[i].status == Status::ok; });
+  const std::vector<std::size_t> points = members_to_check(
+      rows.size(), [&](std::size_t i) { return rows[i].status == Status::ok; },
+      [&](std::size_t i) { return static_cast<unsigned long long>(rows[i].values.back()); });
   EnsembleResult result;
   for (const std::size_t point : points) {
     const auto state = rows[point].values.begin() + 1;  // behind the time
     MemberResult& member = result.members.emplace_back();
     member.status = Status::ok;
     member.time = rows[point].values.front();
+    member.steps = static_cast<unsigned long long>(rows[point].values.back());
     member.state.assign(state, state + static_cast<std::ptrdiff_t>(states));
   }
   std::vector<CheckedMember> checked =
