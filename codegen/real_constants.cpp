@@ -38,7 +38,7 @@ class ConstantParts {
            (GiNaC::is_a<GiNaC::power>(e) && !e.op(1).info(GiNaC::info_flags::integer));
   }
   void check(const ex& e) const {
-    if (is_no_real_constant(model_.at_parameters(e, binding_)))
+    if (is_no_real_constant(model_.at_parameters(e, binding_), model_.limits.bits))
       throw ModelError("'" + printable(expression_text(e), 80) + "' is not a real number");
   }
 

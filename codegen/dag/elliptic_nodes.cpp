@@ -46,10 +46,16 @@ class Terms {
 
 cln::cl_RA ratio(int top, int bottom) { return cln::cl_RA(top) / bottom; }
 
+/// Numbers from it to its inverse can be multiplied, and their roots, without leaving the doubles.
+cln::cl_RA least_double() { return 1 / cln::expt(cln::cl_RA(10), 150); }
+
 /// How many means bring 1 and the complementary modulus together.
+/// \throws ModelError  where no double tells the modulus from 1
 int means_of(const Scaled& k) {
   if (k.node != Dag::kOne) return kMeans;
   const cln::cl_RA square = 1 - k.coefficient * k.coefficient;
+  if (!(square > least_double()))
+    throw ModelError("the modulus of Jacobi's functions is too near to 1 or -1");
   double q = std::sqrt(cln::double_approx(square));
   int means = 1;
   for (constexpr double kSame = 1e-9; 1 - q > kSame; ++means) q = 2 * std::sqrt(q) / (1 + q);
@@ -57,7 +63,7 @@ int means_of(const Scaled& k) {
 }
 
 /// How many duplications bring arguments together; constants need more where their sizes differ.
-/// \throws ModelError  where one is not positive
+/// \throws ModelError  where one is not positive, or their sizes are beyond those of doubles
 int duplications_of(const std::vector<Scaled>& arguments) {
   constexpr std::size_t kInSum = 3;  // the last of R_J is in no product of roots
   std::vector<double> x;
@@ -65,12 +71,16 @@ int duplications_of(const std::vector<Scaled>& arguments) {
     if (argument.node != Dag::kOne) continue;
     if (!cln::plusp(argument.coefficient))
       throw ModelError("Carlson's integrals need positive arguments");
+    if (argument.coefficient < least_double() || argument.coefficient > 1 / least_double())
+      throw ModelError("an argument of Carlson's integrals is too large or too small");
     x.push_back(cln::double_approx(argument.coefficient));
   }
   if (x.size() < arguments.size())
     return arguments.size() > kInSum ? kDuplicationsOfThirdKind : kDuplications;
   int count = 0;
-  for (constexpr int kMost = 600; count < kMost; ++count) {
+  for (constexpr int kMost = 60;; ++count) {
+    if (count == kMost)
+      throw ModelError("the sizes of the arguments of Carlson's integrals are too different");
     double sum = 0;
     for (const double own : x) sum += own;
     const double mean = sum / static_cast<double>(x.size());

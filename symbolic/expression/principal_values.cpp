@@ -1,5 +1,9 @@
 #include "symbolic/expression/principal_values.hpp"
 
+#include <optional>
+
+#include "symbolic/expression/decimal.hpp"
+
 namespace casimir {
 
 using GiNaC::ex;
@@ -44,12 +48,10 @@ bool is_complex_constant(const ex& value) {
   return complex;
 }
 
-bool is_no_real_constant(const ex& value) {
-  for (auto part = value.preorder_begin(); part != value.preorder_end(); ++part)
-    if (GiNaC::is_a<GiNaC::symbol>(*part)) return false;
+bool is_no_real_constant(const ex& value, double bits) {
   if (is_complex_constant(value)) return true;
-  const ex number = value.evalf();
-  return GiNaC::is_a<GiNaC::numeric>(number) && !GiNaC::ex_to<GiNaC::numeric>(number).is_real();
+  const std::optional<GiNaC::numeric> number = decimal(value, bits);
+  return number && !number->is_real();
 }
 
 }  // namespace casimir

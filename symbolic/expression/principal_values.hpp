@@ -12,7 +12,8 @@ GiNaC::ex principal_power(const GiNaC::ex& base, const GiNaC::ex& exponent, bool
 /// root of even order of a negative number. Only constants become complex by themselves.
 bool is_complex_constant(const GiNaC::ex& value);
 
-/// Whether it is a constant and no real number: one of those, or by its decimals, as acos(2).
-bool is_no_real_constant(const GiNaC::ex& value);
+/// Whether it is a constant and no real number: one of those, or by its decimals, as acos(2). What
+/// has none within the limit, see `decimal`, is taken for real.
+bool is_no_real_constant(const GiNaC::ex& value, double bits);
 
 }  // namespace casimir

@@ -110,6 +110,10 @@ TEST(EllipticNodes, OfConstantsAreNumbers) {
   // sn(u, k) of a modulus that no double tells from 1, where u is as large as the period's part.
   expect_near(of_constants("sn", {GiNaC::numeric(33), 1 - GiNaC::pow(GiNaC::numeric(10), -30)}),
               std::tanh(33.), "sn");
+  // Beyond the doubles nothing goes on without end.
+  EXPECT_THROW(of_constants("sn", {1, 1 - GiNaC::pow(GiNaC::numeric(10), -700)}), ModelError);
+  EXPECT_THROW(of_constants("R_F", {1, 2, GiNaC::pow(GiNaC::numeric(10), 400)}), ModelError);
+  EXPECT_THROW(of_constants("R_F", {1, 2, GiNaC::pow(GiNaC::numeric(10), -400)}), ModelError);
   for (const int digits : {3, 6, 12}) {  // k = 1 - 10^-digits
     const GiNaC::ex k = 1 - GiNaC::pow(GiNaC::numeric(10), -digits);
     // sn(u, k) is tanh(u) up to (1 - k^2)/4 (sinh u cosh u - u) sech(u)^2 (DLMF 22.10.7).

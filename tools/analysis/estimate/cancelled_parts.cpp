@@ -39,7 +39,7 @@ ex bound(const Model& model, const Scene& scene, const ex& part) {
   };
   try {
     ex value = model.at_parameters(part, scene);
-    if (is_no_real_constant(value)) throw no_value();
+    if (is_no_real_constant(value, model.limits.bits)) throw no_value();
     return value;
   } catch (const GiNaC::pole_error&) {
     throw no_value();

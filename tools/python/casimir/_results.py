@@ -162,7 +162,8 @@ class Findings(Sequence[dict[str, Any]]):
         return _truth(self._facts["verdict"], f"whether there are other {self._what}")
 
     def __repr__(self) -> str:
-        end = "no others: proved" if self.verdict == "proved" else f"others: undecided, {self.reason}"
+        rational = " with rational coefficients" if self._facts.get("coefficients") == "rational" else ""
+        end = f"no others{rational}: proved" if self.verdict == "proved" else f"others: undecided, {self.reason}"
         return "\n".join([f"<{len(self)} {self._what}; {end}>"] + [f"  {one}" for one in self.found])
 
     def _repr_html_(self) -> str:
