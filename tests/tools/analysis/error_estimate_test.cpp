@@ -332,6 +332,30 @@ TEST(Conditioning, TheTimeOfAGrowthIsTheLastBeforeIt) {
   EXPECT_EQ(flow.on_the_way(), 64);
 }
 
+/// cos(a) turns eight times over between this a and one that differs by the root of the last digit.
+TEST(ErrorEstimate, TheRoundingOfAParameterIsMeasuredByTheNextDoubles) {
+  const Model model = model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\"]\n[parameters]\na = {}\n[equations]\n"
+      "x = \"cos(a)\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"1\" }\n"
+      "parameters = { a = \"10^15/3\" }\nduration = \"1\"\n");
+  SceneOptions kept;
+  kept.keep_parameters = {"a"};
+  const PreparedScene run = prepare(model, model.scene("default"), kept);
+  const AssessedRun assessed = integrate_assessed(model, run, {});
+  constexpr double kTruth = 0.058574965848110344;  // mpmath, 60 digits
+  EXPECT_GT(assessed.trust.error_estimate, std::abs(assessed.trajectory.state[0] - kTruth) / 3);
+}
+
+TEST(ErrorEstimate, TheMemberWithMostStepsIsChecked) {
+  const auto checked = [](unsigned long long steps_of_third) {
+    return members_to_check(
+        8, [](std::size_t) { return true; },
+        [&](std::size_t i) { return i == 2 ? steps_of_third : 10ULL; });
+  };
+  EXPECT_EQ(checked(10), (std::vector<std::size_t>{0, 4, 7}));
+  EXPECT_EQ(checked(100), (std::vector<std::size_t>{0, 2, 4, 7}));
+}
+
 /// What takes longest is what most needs a check: that there was no time for one is said.
 TEST(ErrorEstimate, MembersWithoutTimeForACheckAreUnconfirmed) {
   const Oscillator oscillator;
