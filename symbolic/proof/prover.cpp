@@ -31,21 +31,30 @@ std::vector<GiNaC::symbol> Prover::symbols_of(const Model& model) {
   return symbols;
 }
 
+std::vector<ex> Prover::lost_of_dynamics(const Model& model, Subject subject) {
+  std::vector<ex> lost;
+  const auto add = [&](const std::vector<ex>& parts) {
+    lost.insert(lost.end(), parts.begin(), parts.end());
+  };
+  if (subject == Subject::motion) add(model.domain);
+  for (const NamedExpression& constraint : model.constraints) add(constraint.domain);
+  if (subject != Subject::functions) add(model.bracket_domain);
+  return lost;
+}
+
 std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expressions,
                                       Subject subject) {
   if (subject == Subject::motion) {
-    expressions.insert(expressions.end(), model.domain.begin(), model.domain.end());
     expressions.insert(expressions.end(), model.field.begin(),
                        model.poisson ? model.field.begin() : model.field.end());
     if (model.hamiltonian) expressions.push_back(*model.hamiltonian);
   }
   // Where a constraint has no value is no point of the phase space.
-  for (const NamedExpression& constraint : model.constraints) {
+  for (const NamedExpression& constraint : model.constraints)
     expressions.push_back(constraint.value);
-    expressions.insert(expressions.end(), constraint.domain.begin(), constraint.domain.end());
-  }
+  const std::vector<ex> lost = lost_of_dynamics(model, subject);
+  expressions.insert(expressions.end(), lost.begin(), lost.end());
   if (subject == Subject::functions || !model.poisson) return expressions;
-  expressions.insert(expressions.end(), model.bracket_domain.begin(), model.bracket_domain.end());
   for (std::size_t i = 0; i < model.variables.size(); ++i) {
     for (std::size_t j = i + 1; j < model.variables.size(); ++j)
       expressions.push_back((*model.poisson)(i, j));

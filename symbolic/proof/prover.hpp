@@ -213,6 +213,9 @@ class Prover {
                                  const Level& level);
   void say_conditions(Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
+  /// What has cancelled in the equations, the bracket and the constraints, of which the subject
+  /// speaks.
+  static std::vector<GiNaC::ex> lost_of_dynamics(const Model& model, Subject subject);
   static std::vector<GiNaC::ex> with_dynamics(const Model& model,
                                               std::vector<GiNaC::ex> expressions, Subject subject);
 

@@ -117,6 +117,9 @@ void Prover::say_conditions(Proof& proof) {
     }
   }
   proof.nonzero.clear();
+  // What has cancelled was divided by, too: by the claim, and by what defines the system.
+  for (const ex& expression : claim_) convert(expression);
+  for (const ex& expression : lost_of_dynamics(model_, subject_)) convert(expression);
   const std::vector<Polynomial> denominators = ring_.denominators();
   for (std::size_t k = 0; k < divided_by_.size(); ++k) {
     if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))

@@ -50,6 +50,7 @@ bool PencilSearch::take_first() {
   } else {
     const BracketReport own = find_brackets(model_, report_.degree, watch_);
     if (own.found.empty()) {
+      report_.invariant = own.invariant;
       report_.complete = own.complete;
       report_.reason = own.reason;
       return false;

@@ -216,5 +216,29 @@ TEST(Domains, OfIndependenceAreSaidOfACandidate) {
       << independence->evidence;
 }
 
+TEST(Domains, OfWhatHasCancelledAreSaid) {
+  const std::string parameter = "[parameters]\na = {}\n";
+  const std::vector<std::string> nonzero = {"a"};
+  // On a = 0 the level is everything, and q2 is not zero on it.
+  EXPECT_EQ(verdict_in(canonical("p1^2/2", parameter + identity("q2", "0", "a*q2"), 2), "identity"),
+            Verdict::refuted);
+  const Proof quotient =
+      proof_in(canonical("p1^2/2", parameter + identity("q2+a/a-1", "0", "a*q2"), 2), "identity");
+  EXPECT_EQ(quotient.verdict, Verdict::proved);
+  EXPECT_EQ(quotient.nonzero, nonzero);
+  const std::string definition = "[definitions]\nk = \"a/a\"\n";
+  const Proof defined = proof_in(
+      canonical("p1^2/2", parameter + definition + identity("q2*k", "0", "a*q2"), 2), "identity");
+  EXPECT_EQ(defined.nonzero, nonzero);
+  // A Dirac bracket divides by the determinant a^2 of the constraints' brackets; no entry has it.
+  const std::string dirac =
+      "hamiltonian = \"p2^2/2\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", "
+      "\"p2\"]\ncanonical = true\nconstraints = [\"a*q1\", \"p1\"]\ndirac = true\n" +
+      parameter + "[integrals]\nF = \"p2\"\n";
+  const Proof integral = proof_in(dirac, "integral", "F");
+  EXPECT_EQ(integral.verdict, Verdict::proved);
+  EXPECT_EQ(integral.nonzero, nonzero);
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -127,6 +127,8 @@ TEST(Brackets, AreNotExcludedForAllHamiltoniansWhereABivectorIsInvariant) {
   EXPECT_TRUE(report.complete) << report.reason;
   EXPECT_EQ(report.invariant, 1U);
   EXPECT_FALSE(report.whatever_hamiltonian);
+  // Without a first bracket there is no second one; the bivector is there all the same.
+  EXPECT_EQ(structure::find_second_brackets(model, 2).invariant, 1U);
 }
 
 /// A bracket without the Jacobi identity is not kept by its Hamiltonian flows.
