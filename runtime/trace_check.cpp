@@ -75,6 +75,8 @@ class Checker {
     for (LevelBound& bound : bounds_) bound.begin(start_, set, wide_);
     StepCheck check(flow_, bounds_, trace_.order, trace_.bits + kMoreBits, forwards_,
                     settings.derivatives);
+    std::vector<validated::BallFunction<ArbBall>> smooth;
+    for (const Program& function : settings.smooth) smooth.emplace_back(function);
     ArbBall elapsed;
     BallMatrix total;
     for (std::size_t k = 0; k < trace_.steps.size() && result.fault == TraceFault::none; ++k) {
@@ -91,7 +93,10 @@ class Checker {
         break;
       }
       BallSet after = certificate::set_of(step.after, set.start);
-      result.fault = check({set, after, elapsed, length, step.room, step.columns});
+      const certificate::StepClaim claim{set, after, elapsed, length, step.room, step.columns};
+      result.fault = check(claim);
+      if (result.fault == TraceFault::none && !are_smooth(smooth, check, claim))
+        result.fault = TraceFault::not_smooth;
       if (result.fault == TraceFault::none && settings.derivatives)
         total = k == 0 ? check.derivatives() : validated::product(check.derivatives(), total);
       set = std::move(after);
@@ -108,6 +113,18 @@ class Checker {
   }
 
  private:
+  static bool are_smooth(std::vector<validated::BallFunction<ArbBall>>& functions,
+                         const StepCheck& check, const certificate::StepClaim& claim) {
+    const auto is_smooth = [&](validated::BallFunction<ArbBall>& function) {
+      return validated::is_usable(function(check.tube(), check.times_of(claim))[0]);
+    };
+    try {
+      return std::ranges::all_of(functions, is_smooth);
+    } catch (const std::domain_error&) {
+      return false;
+    }
+  }
+
   /// Each start of the problem is in the first set.
   bool starts_in() const {
     const BallPrecision exact(trace_.bits + kExactBits);

@@ -22,6 +22,7 @@ enum class TraceFault {
   frame,         ///< the frame of the next set is not certain to be regular
   outside,       ///< the flow is not certain to take the set into the next one
   level,         ///< an integral has another value in all of the set
+  not_smooth,    ///< a function is not certain to be analytic on the rough enclosure
   end,           ///< the last set is not in the box at the end
   stopped,       ///< `give_up` said so
 };
@@ -39,7 +40,10 @@ struct TraceCheck {
 
 /// What is asked of `check_trace`.
 struct TraceCheckSettings {
-  bool derivatives = false;            ///< enclose them too
+  bool derivatives = false;  ///< enclose them too
+  /// Functions of one output, of the states and the time, that have to be analytic all along each
+  /// solution, in the least: one whose derivative along solutions vanishes keeps its value then.
+  std::vector<Program> smooth = {};
   std::function<bool()> give_up = {};  ///< asked before each step; true ends the check
 };
 

@@ -72,8 +72,7 @@ bool StepCheck::stays_in_tube(const StepClaim& claim, const Vector& hull) {
   power = power * claim.length;
   for (const ArbBall& x : tube_box_)
     if (!validated::is_usable(x)) return false;
-  tube_.expand(time_of(claim.elapsed + validated::from_zero_to(claim.length)), tube_box_,
-               forwards_);
+  tube_.expand(times_of(claim), tube_box_, forwards_);
   remainder_.clear();
   for (std::size_t i = 0; i < n; ++i) {
     const ArbBall rest = tube_.state(i).back() * power;
@@ -137,8 +136,7 @@ void StepCheck::find_derivatives(const ArbBall& length) {
 /// e^{L h} in the maximum norm by Gronwall's lemma, where L bounds the row sums of |J| over D.
 void StepCheck::find_whole_derivatives(const StepClaim& claim) {
   const std::size_t n = flow_.dimension();
-  tube_jacobian_->expand(time_of(claim.elapsed + validated::from_zero_to(claim.length)), tube_box_,
-                         forwards_);
+  tube_jacobian_->expand(times_of(claim), tube_box_, forwards_);
   const std::vector<Vector> tangents =
       tangents_along(flow_, *tube_jacobian_, order_ + 1, bits_, forwards_);
   std::vector<ArbBall> rows(n);
@@ -209,14 +207,17 @@ TraceFault StepCheck::leads_inside(const StepClaim& claim, const ArbBall& time, 
   return TraceFault::none;
 }
 
+ArbBall StepCheck::times_of(const StepClaim& claim) const {
+  return time_of(claim.elapsed + validated::from_zero_to(claim.length));
+}
+
 TraceFault StepCheck::operator()(const StepClaim& claim) {
   try {
     const Vector hull = hull_of(claim.before);
     const ArbBall time = time_of(claim.elapsed);
     box_.expand(time, hull, forwards_);
     if (!stays_in_tube(claim, hull)) return TraceFault::not_enclosed;
-    for (LevelBound& bound : bounds_)
-      bound.passes(tube_box_, time_of(claim.elapsed + validated::from_zero_to(claim.length)));
+    for (LevelBound& bound : bounds_) bound.passes(tube_box_, times_of(claim));
     const TraceFault fault = leads_inside(claim, time, order_of_derivatives(claim));
     if (fault == TraceFault::none || derivative_order_ == order_) return fault;
     return leads_inside(claim, time, order_);

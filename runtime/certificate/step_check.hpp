@@ -30,6 +30,10 @@ class StepCheck {
 
   TraceFault operator()(const StepClaim& claim);
 
+  /// A box that all solutions stay in during the last step that is proved, and the times of it.
+  const Vector& tube() const { return tube_box_; }
+  ArbBall times_of(const StepClaim& claim) const;
+
   /// The derivatives of the state after the last step by that before it.
   const BallMatrix& derivatives() const { return whole_derivatives_; }
 

@@ -131,11 +131,16 @@ class Contractor {
       : integral_(integral),
         bits_(bits),
         polynomial_(is_polynomial(integral.value)),
+        rational_(is_rational(integral.value)),
         value_(integral.value),
         gradient_(integral.gradient) {}
 
   const std::string& name() const { return integral_.name; }
   bool usable() const { return usable_; }
+  /// Whether every solution so far is certain to have kept the value of the integral that it began
+  /// with: that the derivative of a function along solutions vanishes says so only where it is
+  /// analytic.
+  bool is_kept() const { return rational_ || usable_; }
   bool has_contracted() const { return contracted_; }
 
   /// Where solutions begin: at that point, or from m in m + s.
@@ -278,7 +283,7 @@ class Contractor {
 
   const Integral& integral_;
   slong bits_;
-  bool polynomial_, usable_ = true, contracted_ = false;
+  bool polynomial_, rational_, usable_ = true, contracted_ = false;
   BallFunction<Ball> value_, gradient_;
   std::optional<BallFunction<ArbBall>> exact_value_;
   ArbBall level_;

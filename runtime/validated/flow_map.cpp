@@ -74,6 +74,8 @@ bool FlowMap::go(Lohner<MidRad>& lohner, const MidRad& time) {
       result_.states = lohner.box_at(after);
       if (lohner.follows_derivatives()) result_.derivatives = lohner.derivatives_at(after);
       result_.rates = rates_(result_.states, MidRad());
+      lohner.pass(MidRad(h));
+      result_.not_kept = lohner.not_kept();
       return true;
     }
     if (lohner.advance(MidRad(h)) != StepOutcome::taken) return fail("the set has become too wide");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct FlowImage {
   std::vector<MidRad> states;  ///< contain those of every solution at every of the times
   Matrix<MidRad> derivatives;  ///< of the states by the start, the same; where it is wanted
   std::vector<MidRad> rates;   ///< the rates over `states`: the derivatives by the time
+  /// An integral of which it is not certain that the states have the value that they began with.
+  std::optional<std::string> not_kept;
 };
 
 /// What an image is made with.

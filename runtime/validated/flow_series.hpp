@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <vector>
@@ -26,6 +27,17 @@ inline bool is_polynomial(const Program& program) {
     constant.push_back(fixed);
   }
   return true;
+}
+
+/// Whether all outputs are quotients of polynomials of the inputs. Along a solution that is
+/// analytic in the time such a function is meromorphic: where its derivative vanishes it has one
+/// value, even beyond its poles. An angle, a logarithm, a root or |x| may have another one after
+/// its cut.
+inline bool is_rational(const Program& program) {
+  return std::ranges::all_of(program.code, [](const Instruction& line) {
+    return is_literal(line) || line.op == Op::input || line.op == Op::add || line.op == Op::sub ||
+           line.op == Op::mul || line.op == Op::neg || line.op == Op::div;
+  });
 }
 
 /// The Taylor coefficients of solutions, as TaylorJet has them, of a right-hand side that is a

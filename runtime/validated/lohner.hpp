@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -117,6 +118,20 @@ class Lohner {
     return names;
   }
 
+  /// The name of an integral of which it is not certain that solutions have kept its value, up to
+  /// the end of all that was passed.
+  std::optional<std::string> not_kept() const {
+    for (const Contractor<Ball>& contractor : contractors_)
+      if (!contractor.is_kept()) return contractor.name();
+    return std::nullopt;
+  }
+
+  /// Solutions go on for h at the most: looks whether the integrals are analytic all the way.
+  void pass(const Ball& h) {
+    for (Contractor<Ball>& contractor : contractors_)
+      contractor.stays_on(piece_.tube(), time_of(elapsed_ + from_zero_to(h)));
+  }
+
   /// Expands the flow from the set, and says how far a step might go: log2 of it.
   /// \throws std::domain_error  where the equations have no certain value.
   double prepare(const Ball& elapsed) {
@@ -189,9 +204,7 @@ class Lohner {
   /// Goes on by h, which was found to be enclosed.
   StepOutcome advance(const Ball& h) {
     know_tangents();
-    const Ball middle_time = elapsed_ + from_zero_to(h);
-    for (Contractor<Ball>& contractor : contractors_)
-      contractor.stays_on(piece_.tube(), time_of(middle_time));
+    pass(h);
     const Vector moved = displaced(h);
     const Matrix<Ball> derivative = piece_.derivative(h);
     Doubleton<Ball> next;

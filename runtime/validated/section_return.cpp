@@ -141,6 +141,9 @@ bool SectionReturn<Ball>::describe(const Passage<Ball>& passage, double h) {
   const double reach = upwards(after.rad);
   if (!is_usable(after) || !(after.mid - 2 * reach > 0) || !(after.mid + 2 * reach < h))
     return fail("it returns where two steps meet");
+  lohner_.pass(Ball(h));
+  if (const auto name = lohner_.not_kept())
+    return fail("'" + *name + "' is not certain to be smooth all the way: its value may jump");
   const Ball times(MidRad(after.mid, reach)), t0(after.mid);
   result_.time = passage.time;
   result_.states = lohner_.box_at(times);

@@ -48,12 +48,13 @@ struct ReturnSettings {
 /// The first return to a surface, of sets of solutions of an autonomous system, as theorems.
 ///
 /// What is proved where an answer is given, for every x of the set that lies on s = 0 and on the
-/// levels: the solution from x exists up to its return; s increases strictly through zero at the
-/// start and at the return; between the two it passes every zero once, and only downwards: so the
-/// return is the first one, none is missed, and it depends continuously on x (implicit function
-/// theorem). Each of this is checked by `Crossings` on every step; that the start is transversal is
-/// checked here.
-/// In balls of doubles, or of Arb's at the precision of the thread.
+/// levels: the solution from x exists up to its return, which lies on the levels (each integral is
+/// rational or analytic all the way: the angle of a state jumps at its cut); s increases strictly
+/// through zero at the start and at the return; between the two it passes every zero once, and only
+/// downwards: so the return is the first one, none is missed, and it depends continuously on x
+/// (implicit function theorem). Each of this is checked by `Crossings` on every step; that the
+/// start is transversal is checked here. In balls of doubles, or of Arb's at the precision of the
+/// thread.
 template <class Ball>
 class SectionReturn {
  public:

@@ -71,6 +71,41 @@ TEST(CycleCertificates, AMemberOfAFamilyHasNone) {
   EXPECT_FALSE(certify_cycle("two", oscillators("4"), "x", {0.5}));
 }
 
+/// A circle on which a third state grows, or not.
+std::string circle(const std::string& rate, const std::string& constant) {
+  return R"toml(title = "Circle"
+[phase_space]
+variables = ["x", "y", "s"]
+[equations]
+x = "-y"
+y = "x"
+s = ")toml" +
+         rate + R"toml("
+[integrals]
+R = "sqrt(x^2 + y^2)"
+A = ")toml" +
+         constant + R"toml("
+[[scene]]
+name = "cycle"
+initial = { x = "3/5", y = "4/5", s = "0" }
+duration = "6283185307179586/1000000000000000"
+)toml";
+}
+
+/// The angle of the state jumps where the third state has grown by as much as a turn.
+TEST(CycleCertificates, AFunctionThatJumpsOnTheWayKeepsNoOrbitClosed) {
+  const auto still = certify_cycle("circle", circle("0", "s"), "x - 3/5", {1, 0});
+  ASSERT_TRUE(still);
+  EXPECT_TRUE(check_cycle(*still).holds());
+  const std::string growing = circle("10^(-13)", "s - 10^(-13)*(atan2(y, x) - atan2(4, 3))");
+  EXPECT_FALSE(certify_cycle("circle", growing, "x - 3/5", {1, 0}));
+  CycleCertificate forged = *still;
+  forged.equations = growing;
+  const CheckedCycle checked = check_cycle(forged);
+  EXPECT_FALSE(checked.holds());
+  EXPECT_NE(checked.reason.find("jump"), std::string::npos) << checked.reason;
+}
+
 TEST(CycleCertificates, WhatIsNotTrueIsRefuted) {
   ASSERT_TRUE(check_cycle(oscillation()).holds());
   EXPECT_FALSE(tampered([](CycleCertificate& c) { c.levels[0] = "0x3p-2"; }).holds());

@@ -130,6 +130,46 @@ TEST(Coverings, AnImageOnAnotherSheetIsSeen) {
   EXPECT_TRUE(without.covers(here, here));
 }
 
+/// The saddle and a clock z, which a function with the angle of (c, s) seems to hold back: it jumps
+/// in each turn, by what the clock has gone on.
+Model saddle_with_clock(const std::string& rate, const std::string& constant) {
+  return build_model(parse_case(fmt::format(R"toml(title = "clock"
+[phase_space]
+variables = ["c", "s", "x", "y", "z"]
+[equations]
+c = "-s"
+s = "c"
+x = "x/4"
+y = "-y/4"
+z = "{}"
+[integrals]
+R = "sqrt(c^2 + s^2)"
+A = "{}"
+[section]
+function = "s"
+plot = ["x", "y"]
+[[scene]]
+name = "default"
+initial = {{ c = "1", s = "0", x = "1/10", y = "1/7", z = "0" }}
+duration = "10"
+)toml",
+                                            rate, constant),
+                                "clock"));
+}
+
+TEST(Coverings, AFunctionThatJumpsOnTheWayIsNoLevel) {
+  const auto covers_itself = [](Prepared& p) {
+    const HSet set = *p.set({1, 0, 0, 0, 0}, {0, 0, 0.1, 0, 0}, {0, 0, 0, 0.1, 0});
+    return p.coverings.check(set, {&set});
+  };
+  Prepared still(saddle_with_clock("0", "z"));
+  EXPECT_TRUE(covers_itself(still).proved);
+  Prepared growing(saddle_with_clock("10^(-12)", "z - 10^(-12)*atan2(s, c)"));
+  const CoveringOutcome outcome = covers_itself(growing);
+  EXPECT_FALSE(outcome.proved);
+  EXPECT_NE(outcome.reason.find("jump"), std::string::npos) << outcome.reason;
+}
+
 /// s (c - 1/2)^2 touches zero at a third of a half turn: the return map has no certain first
 /// return.
 TEST(Coverings, ASurfaceThatMayBeTouchedIsRefused) {

@@ -65,6 +65,41 @@ TEST(ValidatedCycles, AMemberOfAFamilyIsNotProved) {
   EXPECT_FALSE(proof.reason.empty());
 }
 
+/// z grows by 10^-13 a second. z - 10^-13 arg(x + i y) has no derivative along the motion, and is
+/// again what it was after a turn: it jumps at its cut.
+TEST(ValidatedCycles, WhatReturnsToAJumpingFunctionOnlyIsNotProved) {
+  const Model model = build_model(parse_case(R"toml(title = "spiral"
+hamiltonian = "(x^2+y^2)/2 + (p^2+3*q^2)/2"
+[phase_space]
+variables = ["x", "y", "z", "q", "p"]
+[phase_space.brackets]
+"x,y" = "-1"
+"y,z" = "-10^(-13)*y/(x^2+y^2)"
+"x,z" = "-10^(-13)*x/(x^2+y^2)"
+"q,p" = "1"
+[casimirs]
+C = "z - 10^(-13)*atan2(y, x)"
+[section]
+function = "y"
+plot = ["q", "p"]
+[[scene]]
+name = "default"
+initial = { x = "1", y = "0", z = "1", q = "0", p = "0" }
+duration = "1"
+)toml",
+                                             "spiral"));
+  const Scene& scene = model.scenes.front();
+  Cycle cycle;
+  LevelSet::Vector point(5);
+  point << 1, 0, 1, 0, 0;
+  cycle.points = {{point, {0, 0}}};
+  cycle.period = 2 * std::acos(-1.);
+  const ProvedCycle proof =
+      enclose_cycles(model, scene, section_problem(model, scene), {cycle}).front();
+  EXPECT_FALSE(proof.proved);
+  EXPECT_NE(proof.reason.find("jump"), std::string::npos) << proof.reason;
+}
+
 TEST(ValidatedCycles, WhatDoesNotCloseIsNotProved) {
   const Oscillators two(2);
   EXPECT_FALSE(enclose_cycles(two.model, two.scene, two.problem, {two.guess(0, 5)}).front().proved);

@@ -10,8 +10,10 @@
 #include <cmath>
 
 #include "codegen/optimise/differentiate.hpp"
+#include "codegen/optimise/lower.hpp"
 #include "codegen/specialise.hpp"
 #include "runtime/trace_check.hpp"
+#include "runtime/validated/flow_series.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/prove.hpp"
@@ -49,24 +51,7 @@ class CycleEquations {
 
   /// x' = T f(x), T' = 0 from the middle over a unit of time.
   ValidatedProblem problem(const cln::cl_RA& radius) const {
-    Model scaled;
-    scaled.limits = model_.limits;
-    scaled.name = model_.name;
-    scaled.phase_space = "equations";
-    scaled.variables = model_.variables;
-    const GiNaC::symbol time("casimir_period");
-    scaled.variables.push_back(time);
-    for (const GiNaC::ex& rate : model_.field) scaled.field.push_back(time * rate);
-    scaled.field.emplace_back(0);
-    Scene scene = model_.scenes.front();
-    scene.initial.push_back(*scene.duration);
-    scene.reference.clear();
-    scene.duration = 1;
-    SpecialiseOptions what;
-    what.observe = std::vector<std::string>{};
-    what.jacobian = false;
-    what.invariants = false;
-    const Specialisation s = specialise(scaled, scene, what);
+    const Specialisation s = scaled();
     ValidatedProblem result;
     result.rates = s.rhs;
     result.start = s.start;
@@ -74,6 +59,20 @@ class CycleEquations {
     result.jacobian = jacobian.program;
     result.entries = jacobian.entries;
     if (cln::plusp(radius)) result.radii.assign(n_ + 1, radius);
+    return result;
+  }
+
+  /// The functions of the level that might jump where their derivatives along solutions vanish.
+  std::vector<Program> level_functions_with_branches() const {
+    const Specialisation s = scaled();
+    std::vector<Program> result;
+    for (std::size_t k = 0; k < s.invariants.outputs.size(); ++k) {
+      Program one = s.invariants;
+      one.outputs = {s.invariants.outputs[k]};
+      one.output_names = {s.invariants.output_names[k]};
+      one = codegen::without_dead_code(one);
+      if (!validated::is_rational(one)) result.push_back(std::move(one));
+    }
     return result;
   }
 
@@ -105,6 +104,9 @@ class CycleEquations {
   BallMatrix derivatives(const BallMatrix& z, const BallMatrix& of_end) const {
     BallMatrix result(n_ + 1, n_ + 1);
     const BallMatrix x = z.rows_of(0, n_);
+    // The derivative of a function may be smooth where the function jumps.
+    plane_(x);
+    levels_(x);
     const BallMatrix plane = plane_derivatives_(x), functions = level_derivatives_(x);
     for (std::size_t j = 0; j < n_; ++j) {
       arb_set(result.at(0, j), plane.at(0, j));
@@ -118,10 +120,12 @@ class CycleEquations {
     return result;
   }
 
-  /// Start and end are one point of the level.
+  /// Start and end are one point of the level: the functions have not jumped on the way between
+  /// them, which `check_trace` has seen to.
   void check_closed(const BallMatrix& box, const BallMatrix& end) const {
     BallMatrix hull(n_, 1);
     for (std::size_t i = 0; i < n_; ++i) arb_union(hull.at(i), box.at(i), end.at(i), kBallBits);
+    levels_(hull);  // smooth all over it, or thrown
     const BallMatrix functions = level_derivatives_(hull);
     BallMatrix pivots(levels(), levels()), inverse(levels(), levels());
     std::size_t column = 0;
@@ -150,6 +154,27 @@ class CycleEquations {
   }
 
  private:
+  Specialisation scaled() const {
+    Model scaled;
+    scaled.limits = model_.limits;
+    scaled.name = model_.name;
+    scaled.phase_space = "equations";
+    scaled.variables = model_.variables;
+    const GiNaC::symbol time("casimir_period");
+    scaled.variables.push_back(time);
+    for (const GiNaC::ex& rate : model_.field) scaled.field.push_back(time * rate);
+    scaled.field.emplace_back(0);
+    scaled.integrals = model_.integrals;
+    Scene scene = model_.scenes.front();
+    scene.initial.push_back(*scene.duration);
+    scene.reference.clear();
+    scene.duration = 1;
+    SpecialiseOptions what;
+    what.observe = std::vector<std::string>{};
+    what.jacobian = false;
+    return specialise(scaled, scene, what);
+  }
+
   static Model plain_model(const CycleCertificate& certificate) {
     RunCertificate run;
     run.of_case = certificate.of_case;
@@ -203,6 +228,9 @@ BallMatrix column_of(const std::vector<RationalInterval>& values, std::size_t co
 TraceCheck checked_trace(const ValidatedProblem& problem, const RunTrace& trace,
                          const TraceCheckSettings& settings, const char* which) {
   TraceCheck check = check_trace(problem, trace, settings);
+  if (check.fault == TraceFault::not_smooth)
+    throw CycleRefuted{
+        "a function of the level is not certain to be smooth along the orbit: its value may jump"};
   if (check.fault != TraceFault::none)
     throw CycleRefuted{
         fmt::format("step {} of the run from the {} is not proved", check.step, which)};
@@ -238,6 +266,7 @@ void verify(const CycleCertificate& certificate, const TraceCheckSettings& setti
   check_form(certificate, n);
   TraceCheckSettings with_derivatives = settings;
   with_derivatives.derivatives = true;
+  with_derivatives.smooth = equations.level_functions_with_branches();
   const TraceCheck point =
       checked_trace(equations.problem(0), certificate.point, settings, "middle");
   const TraceCheck wide = checked_trace(equations.problem(traced_number(certificate.radius)),

@@ -104,6 +104,11 @@ class FlowToTime {
     validated::FlowMap map(flow_, integrals_, settings);
     if (!map.find(start, wide, validated::outwards(time), with_derivatives))
       throw NotProved{fmt::format("its orbit is not enclosed to the end: {}", map.reason())};
+    // Else that start and end are on one level would be nothing to conclude from.
+    if (map.result().not_kept)
+      throw NotProved{
+          "a function of the level is not certain to be smooth along its orbit: its value may "
+          "jump"};
     Image image{BallMatrix(n_, 1), BallMatrix(n_, n_ + 1)};
     for (std::size_t i = 0; i < n_; ++i) {
       set(image.state.at(i), map.result().states[i]);
@@ -328,10 +333,18 @@ class Prover {
     return result;
   }
 
+  /// The derivative of a function may be smooth where the function jumps.
+  /// \throws NotCertified
+  void require_smooth(const BallMatrix& box) const {
+    levels_(box);
+    plane_(box);
+  }
+
   BallMatrix derivatives(const BallMatrix& z, const Image& image) const {
     const std::size_t n = states();
     BallMatrix result(n + 1, n + 1);
     const BallMatrix x = z.rows_of(0, n);
+    require_smooth(x);
     const BallMatrix plane = plane_derivatives_(x), functions = level_derivatives_(x);
     for (std::size_t j = 0; j < n; ++j) {
       arb_set(result.at(0, j), plane.at(0, j));
@@ -352,6 +365,7 @@ class Prover {
     BallMatrix hull(states(), 1);
     for (std::size_t i = 0; i < states(); ++i)
       arb_union(hull.at(i), box.at(i), image.state.at(i), kBallBits);
+    levels_(hull);  // smooth all over it, or thrown
     const BallMatrix functions = level_derivatives_(hull);
     BallMatrix pivots(levels(), levels()), inverse(levels(), levels());
     for (std::size_t a = 0; a < levels(); ++a)

@@ -35,7 +35,9 @@ struct ProvedCycle {
 /// `validated::FlowMap`, and that by T is f(phi_T(x)). The other differences are zero as well: both
 /// points lie on one level, and the derivatives of the I_a by the other coordinates are a regular
 /// matrix over the hull of both boxes (mean value theorem). This needs that the I_a are constant
-/// along the flow, which is proved first for the Casimir functions and holds for H.
+/// along the flow: that their derivatives along it vanish is proved first for the Casimir functions
+/// and holds for H, and that they do not jump is asked of all of the way (`FlowImage::not_kept`)
+/// and of the hull: z - arg(x + i y) returns to its value with another z.
 ///
 /// The levels are those numbers and all others within 2^-52 of them, of their size.
 /// The trace is that of the derivative of phi_T less one for each I_a and one for the direction of

@@ -32,6 +32,8 @@ std::string words_of(TraceFault fault) {
       return "the flow is not certain to take the set into the next one";
     case TraceFault::level:
       return "an integral has another value in all of the set";
+    case TraceFault::not_smooth:
+      return "a function of the level is not certain to be smooth there";
     case TraceFault::end:
       return "the last set is not in the box at the end";
     case TraceFault::stopped:
