@@ -18,23 +18,17 @@
 namespace casimir {
 namespace {
 
-NamedExpression put(NamedExpression f, const GivenFunctions& given) {
-  f.value = given.put(f.value);
-  for (GiNaC::ex& part : f.domain) part = given.put(part);
-  return f;
-}
-
 std::vector<NamedExpression> put(const std::vector<NamedExpression>& list,
                                  const GivenFunctions& given) {
   std::vector<NamedExpression> result;
-  for (const NamedExpression& f : list) result.push_back(put(f, given));
+  for (const NamedExpression& f : list) result.push_back(given.put(f));
   return result;
 }
 
 std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts,
                                   const GivenFunctions& given) {
   std::vector<NamedExpression> result;
-  for (const Text& text : texts) result.push_back(put(model.parse_named(text), given));
+  for (const Text& text : texts) result.push_back(given.put(model.parse_named(text)));
   return result;
 }
 
@@ -67,9 +61,9 @@ std::vector<Claim> claims_of(const Model& written, const Model& model, const Can
   }
   for (const Text& text : candidates.identities) {
     Identity identity = written.parse_identity(text);
-    identity.left = given.put(identity.left);
-    identity.right = given.put(identity.right);
     for (GiNaC::ex& part : identity.domain) part = given.put(part);
+    given.put_into(identity.left, identity.domain);
+    given.put_into(identity.right, identity.domain);
     identity.on = on;
     claims.push_back(identity_claim(identity));
   }
@@ -287,7 +281,7 @@ Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
   Provers provers(model, {claim}, true);
   std::vector<GivenCase> cases =
       given_cases(model, 1, [&](const Model&, const GivenFunctions& given) {
-        return std::vector<Claim>{row.make(put(f, given), put(on, given))};
+        return std::vector<Claim>{row.make(given.put(f), put(on, given))};
       });
   decide_for_all(provers, cases, claim, 0, proof);
   return proof;

@@ -33,6 +33,19 @@ struct Quantity {
 /// The parts that no longer occur in the value: it is defined only where these have values.
 std::vector<GiNaC::ex> lost_parts(const Quantity& quantity);
 
+/// What becomes of a term that is zero once values are put in.
+enum class VanishingTerms {
+  counted,  ///< it is there as written: it has a value where its parts have
+  dropped,  ///< it is not there, as the force with the strength 0 in a scene
+};
+
+/// The functions and powers that an expression needs and no longer shows once values are put into
+/// it, each with the values in it: sqrt(q) of U(sqrt(q)) for U = r^2, log(q) of exp(a*log(q)) for
+/// a = 1. What comes out is the expression with these values only where all of them have a value.
+/// \throws TooLarge, GiNaC::pole_error  as `substituted`
+std::vector<GiNaC::ex> lost_in_substitution(const GiNaC::ex& expression, const GiNaC::exmap& values,
+                                            const Limits& limits, VanishingTerms vanishing);
+
 /// The quantity with these parts, and those that its value shows.
 Quantity with_parts(Quantity quantity, const std::vector<GiNaC::ex>& lost);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 namespace {
@@ -21,7 +22,46 @@ std::unordered_set<ex> visible_parts(const ex& value) {
   return parts;
 }
 
+class LostInSubstitution {
+ public:
+  LostInSubstitution(const GiNaC::exmap& values, const Limits& limits, VanishingTerms vanishing)
+      : values_(values), limits_(limits), vanishing_(vanishing) {}
+
+  std::vector<ex> operator()(const ex& expression) {
+    const std::unordered_set<ex> before = visible_parts(expression);
+    if (before.empty()) return {};
+    known_ = visible_parts(substituted(expression, values_, limits_));
+    visit(expression);
+    return std::move(lost_);
+  }
+
+ private:
+  void visit(const ex& e) {
+    if (e.nops() == 0 || !seen_.insert(e).second) return;
+    const bool is_part = GiNaC::is_a<GiNaC::power>(e) || GiNaC::is_a<GiNaC::function>(e);
+    if (is_part || GiNaC::is_a<GiNaC::mul>(e)) {
+      const ex now = substituted(e, values_, limits_);
+      if (vanishing_ == VanishingTerms::dropped && now.is_zero()) return;
+      if (is_part)
+        for (const ex& part : visible_parts(now))
+          if (known_.insert(part).second) lost_.push_back(part);
+    }
+    for (std::size_t i = 0; i < e.nops(); ++i) visit(e.op(i));
+  }
+
+  const GiNaC::exmap& values_;
+  const Limits& limits_;
+  VanishingTerms vanishing_;
+  std::unordered_set<ex> known_, seen_;
+  std::vector<ex> lost_;
+};
+
 }  // namespace
+
+std::vector<ex> lost_in_substitution(const ex& expression, const GiNaC::exmap& values,
+                                     const Limits& limits, VanishingTerms vanishing) {
+  return LostInSubstitution(values, limits, vanishing)(expression);
+}
 
 std::vector<ex> lost_parts(const Quantity& quantity) {
   std::vector<ex> lost;

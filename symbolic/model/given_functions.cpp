@@ -6,6 +6,7 @@
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
@@ -37,32 +38,54 @@ void put_all(std::vector<ex>& list, const GivenFunctions& given) {
   for (ex& e : list) e = given.put(e);
 }
 
+/// The domain has been put in before.
+void put_all(std::vector<ex>& list, std::vector<ex>& domain, const GivenFunctions& given) {
+  for (ex& e : list) given.put_into(e, domain);
+}
+
 void put_all(std::vector<NamedExpression>& list, const GivenFunctions& given) {
-  for (NamedExpression& f : list) {
-    f.value = given.put(f.value);
-    put_all(f.domain, given);
-  }
+  for (NamedExpression& f : list) f = given.put(f);
 }
 
 void put_all(std::vector<LevelClaim>& list, const GivenFunctions& given) {
   for (LevelClaim& claim : list) {
-    claim.expression.value = given.put(claim.expression.value);
-    put_all(claim.expression.domain, given);
+    claim.expression = given.put(claim.expression);
     put_all(claim.on, given);
   }
 }
 
-void put_all(GiNaC::matrix& m, const GivenFunctions& given) {
+void put_all(GiNaC::matrix& m, std::vector<ex>& domain, const GivenFunctions& given) {
   for (unsigned i = 0; i < m.rows(); ++i)
-    for (unsigned j = 0; j < m.cols(); ++j) m(i, j) = given.put(m(i, j));
+    for (unsigned j = 0; j < m.cols(); ++j) given.put_into(m(i, j), domain);
 }
 
-PoissonStructure put_bracket(const PoissonStructure& bracket, const GivenFunctions& given) {
+void put_all(std::vector<Assumption>& list, std::vector<ex>& domain, const GivenFunctions& given) {
+  for (Assumption& a : list) given.put_into(a.difference, domain);
+}
+
+PoissonStructure put_bracket(const PoissonStructure& bracket, std::vector<ex>& domain,
+                             const GivenFunctions& given) {
   std::vector<ex> upper;
   for (std::size_t i = 0; i < bracket.dimension(); ++i)
-    for (std::size_t j = i + 1; j < bracket.dimension(); ++j)
-      upper.push_back(given.put(bracket(i, j)));
+    for (std::size_t j = i + 1; j < bracket.dimension(); ++j) {
+      upper.push_back(bracket(i, j));
+      given.put_into(upper.back(), domain);
+    }
   return {bracket.coordinates(), upper};
+}
+
+void put_map(PoissonMap& map, const GivenFunctions& given) {
+  put_all(map.domain, given);
+  map.target = put_bracket(map.target, map.domain, given);
+  put_all(map.expressions, map.domain, given);
+  put_all(map.on, given);
+  put_all(map.image, given);
+  put_all(map.leads_to, map.domain, given);
+  for (MapInverse& inverse : map.inverses) {
+    put_all(inverse.defined_by, given);
+    put_all(inverse.expressions, inverse.defined_by, given);
+    put_all(inverse.domain, inverse.defined_by, given);
+  }
 }
 
 void put_claims(Model& model, const GivenFunctions& given) {
@@ -71,34 +94,35 @@ void put_claims(Model& model, const GivenFunctions& given) {
   put_all(model.conditionals, given);
   put_all(model.invariant_relations, given);
   for (LaxPair& pair : model.lax_pairs) {
-    put_all(pair.l, given);
-    put_all(pair.a, given);
     put_all(pair.domain, given);
+    put_all(pair.l, pair.domain, given);
+    put_all(pair.a, pair.domain, given);
     put_all(pair.on, given);
   }
-  for (PoissonMap& map : model.maps) {
-    map.target = put_bracket(map.target, given);
-    put_all(map.expressions, given);
-    put_all(map.on, given);
-    put_all(map.image, given);
-    put_all(map.domain, given);
-    for (Assumption& a : map.leads_to) a.difference = given.put(a.difference);
-    for (MapInverse& inverse : map.inverses) {
-      put_all(inverse.expressions, given);
-      put_all(inverse.defined_by, given);
-      for (Assumption& a : inverse.domain) a.difference = given.put(a.difference);
-    }
-  }
-  for (Measure& measure : model.measures) {
-    measure.density.value = given.put(measure.density.value);
-    put_all(measure.density.domain, given);
-  }
+  for (PoissonMap& map : model.maps) put_map(map, given);
+  for (Measure& measure : model.measures) measure.density = given.put(measure.density);
   for (Identity& identity : model.identities) {
-    identity.left = given.put(identity.left);
-    identity.right = given.put(identity.right);
-    put_all(identity.on, given);
     put_all(identity.domain, given);
+    given.put_into(identity.left, identity.domain);
+    given.put_into(identity.right, identity.domain);
+    put_all(identity.on, given);
   }
+}
+
+/// The domains have been put in before.
+void put_motion(Model& model, const GivenFunctions& given) {
+  if (model.hamiltonian) {
+    given.put_into(*model.hamiltonian, model.domain);
+    put_all(model.field, given);  // derived from it
+  } else {
+    put_all(model.field, model.domain, given);
+  }
+  if (model.poisson) model.poisson = put_bracket(*model.poisson, model.bracket_domain, given);
+  // All points are where the assumptions have values.
+  std::vector<ex> of_assumptions;
+  put_all(model.assumptions, of_assumptions, given);
+  for (std::vector<ex>* domain : {&model.domain, &model.bracket_domain})
+    domain->insert(domain->end(), of_assumptions.begin(), of_assumptions.end());
 }
 
 }  // namespace
@@ -111,6 +135,18 @@ bool has_arbitrary_functions(const Model& model) {
 
 ex GivenFunctions::put(const ex& expression) const {
   return substituted(expression, values, limits);
+}
+
+void GivenFunctions::put_into(ex& expression, std::vector<ex>& domain) const {
+  for (const ex& part : lost_in_substitution(expression, values, limits, VanishingTerms::counted))
+    domain.push_back(part);
+  expression = put(expression);
+}
+
+NamedExpression GivenFunctions::put(NamedExpression f) const {
+  put_all(f.domain, *this);
+  put_into(f.value, f.domain);
+  return f;
 }
 
 std::vector<GivenFunctions> function_choices(const Model& model) {
@@ -134,12 +170,9 @@ std::vector<GivenFunctions> function_choices(const Model& model) {
 
 Model with_functions(const Model& model, const GivenFunctions& given) {
   Model result = model;
-  if (result.hamiltonian) result.hamiltonian = given.put(*result.hamiltonian);
-  put_all(result.field, given);
   put_all(result.domain, given);
   put_all(result.bracket_domain, given);
-  if (result.poisson) result.poisson = put_bracket(*result.poisson, given);
-  for (Assumption& a : result.assumptions) a.difference = given.put(a.difference);
+  put_motion(result, given);
   put_claims(result, given);
   result.section.reset();
   result.scenes.clear();  // they are about functions of their own

@@ -22,6 +22,11 @@ struct GivenFunctions {
   /// An expression with these functions in place of the arbitrary ones.
   /// \throws TooLarge  beyond the limit `bits`
   GiNaC::ex put(const GiNaC::ex& expression) const;
+  /// Puts them into an expression and into what it needs values of, to which is added what the
+  /// expression does not show any longer: U(sqrt(q)) is 1 + q for U = 1 + r^2, where q >= 0.
+  void put_into(GiNaC::ex& expression, std::vector<GiNaC::ex>& domain) const;
+  /// The same of a function with a domain of its own.
+  NamedExpression put(NamedExpression f) const;
 };
 
 /// Different choices, simple ones: of degrees 1, 2 and 3, and a negative one.
