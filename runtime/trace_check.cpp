@@ -95,8 +95,9 @@ class Checker {
       BallSet after = certificate::set_of(step.after, set.start);
       const certificate::StepClaim claim{set, after, elapsed, length, step.room, step.columns};
       result.fault = check(claim);
-      if (result.fault == TraceFault::none && !are_smooth(smooth, check, claim))
-        result.fault = TraceFault::not_smooth;
+      for (auto& function : smooth)
+        if (result.fault == TraceFault::none && !check.is_analytic(function, claim))
+          result.fault = TraceFault::not_smooth;
       if (result.fault == TraceFault::none && settings.derivatives)
         total = k == 0 ? check.derivatives() : validated::product(check.derivatives(), total);
       set = std::move(after);
@@ -113,18 +114,6 @@ class Checker {
   }
 
  private:
-  static bool are_smooth(std::vector<validated::BallFunction<ArbBall>>& functions,
-                         const StepCheck& check, const certificate::StepClaim& claim) {
-    const auto is_smooth = [&](validated::BallFunction<ArbBall>& function) {
-      return validated::is_usable(function(check.tube(), check.times_of(claim))[0]);
-    };
-    try {
-      return std::ranges::all_of(functions, is_smooth);
-    } catch (const std::domain_error&) {
-      return false;
-    }
-  }
-
   /// Each start of the problem is in the first set.
   bool starts_in() const {
     const BallPrecision exact(trace_.bits + kExactBits);

@@ -33,10 +33,6 @@ bool LevelBound::is_analytic_on(const Vector& box, const ArbBall& time) {
   }
 }
 
-void LevelBound::passes(const Vector& tube, const ArbBall& time) {
-  usable_ = usable_ && is_analytic_on(tube, time);
-}
-
 Vector LevelBound::gradient_over(const Vector& box, const ArbBall& time) {
   const Vector& entries = gradient_(box, time);
   Vector gradient(box.size());

@@ -26,14 +26,16 @@ class LevelBound {
 
   /// Where the run begins: at the exact point, or in the set.
   void begin(const Vector& point, const BallSet& first, bool wide);
-  /// Solutions go through this box, during these times.
-  void passes(const Vector& tube, const ArbBall& time);
+  bool usable() const { return usable_; }
+  /// Whether it is certain to be analytic on a box that solutions go through, during these times.
+  bool is_analytic_on(const Vector& box, const ArbBall& time);
+  /// It was not analytic all along.
+  void give_up() { usable_ = false; }
   /// Bounds a coordinate of a set. \return false where no state of the set is on the level.
   bool bound(BallSet& set, std::size_t which, const Vector& hull, const ArbBall& time);
 
  private:
   Vector gradient_over(const Vector& box, const ArbBall& time);
-  bool is_analytic_on(const Vector& box, const ArbBall& time);
 
   const KnownIntegral& integral_;
   slong bits_;

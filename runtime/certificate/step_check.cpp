@@ -211,13 +211,55 @@ ArbBall StepCheck::times_of(const StepClaim& claim) const {
   return time_of(claim.elapsed + validated::from_zero_to(claim.length));
 }
 
+/// All solutions at the times within the step: sum_{k <= N} X_k t^k + x_{N+1}(D) t^{N+1}.
+Vector StepCheck::states_at(const ArbBall& elapsed) const {
+  Vector result;
+  for (std::size_t i = 0; i < remainder_.size(); ++i) {
+    const Vector& series = box_.state(i);
+    ArbBall sum;
+    for (auto k = static_cast<std::size_t>(order_) + 1; k-- > 0;) sum = sum * elapsed + series[k];
+    result.push_back(sum + validated::from_zero_to(remainder_[i]));
+  }
+  return result;
+}
+
+/// \param on_box  whether something holds on a box and at some times.
+template <class OnBox>
+bool StepCheck::holds_all_along(const OnBox& on_box, const StepClaim& claim) const {
+  if (on_box(tube_box_, times_of(claim))) return true;
+  constexpr int kParts = 16;
+  const ArbBall length = claim.length * ArbBall(1. / kParts);
+  for (int k = 0; k < kParts; ++k) {
+    const ArbBall t = length * ArbBall(static_cast<double>(k)) + validated::from_zero_to(length);
+    if (!on_box(states_at(t), time_of(claim.elapsed + t))) return false;
+  }
+  return true;
+}
+
+bool StepCheck::is_analytic(validated::BallFunction<ArbBall>& function,
+                            const StepClaim& claim) const {
+  const auto has_value_on = [&](const Vector& box, const ArbBall& time) {
+    try {
+      return validated::is_usable(function(box, time)[0]);
+    } catch (const std::domain_error&) {
+      return false;
+    }
+  };
+  return holds_all_along(has_value_on, claim);
+}
+
 TraceFault StepCheck::operator()(const StepClaim& claim) {
   try {
     const Vector hull = hull_of(claim.before);
     const ArbBall time = time_of(claim.elapsed);
     box_.expand(time, hull, forwards_);
     if (!stays_in_tube(claim, hull)) return TraceFault::not_enclosed;
-    for (LevelBound& bound : bounds_) bound.passes(tube_box_, times_of(claim));
+    for (LevelBound& bound : bounds_) {
+      const auto on_box = [&](const Vector& box, const ArbBall& at) {
+        return bound.is_analytic_on(box, at);
+      };
+      if (bound.usable() && !holds_all_along(on_box, claim)) bound.give_up();
+    }
     const TraceFault fault = leads_inside(claim, time, order_of_derivatives(claim));
     if (fault == TraceFault::none || derivative_order_ == order_) return fault;
     return leads_inside(claim, time, order_);

@@ -30,15 +30,19 @@ class StepCheck {
 
   TraceFault operator()(const StepClaim& claim);
 
-  /// A box that all solutions stay in during the last step that is proved, and the times of it.
-  const Vector& tube() const { return tube_box_; }
-  ArbBall times_of(const StepClaim& claim) const;
+  /// Whether a function of one output is certain to be analytic on all solutions during the last
+  /// step, which is proved: on a box around all of them, or on one for each part of the step.
+  bool is_analytic(validated::BallFunction<ArbBall>& function, const StepClaim& claim) const;
 
   /// The derivatives of the state after the last step by that before it.
   const BallMatrix& derivatives() const { return whole_derivatives_; }
 
  private:
+  template <class OnBox>
+  bool holds_all_along(const OnBox& on_box, const StepClaim& claim) const;
   ArbBall time_of(const ArbBall& elapsed) const { return forwards_ ? elapsed : -elapsed; }
+  ArbBall times_of(const StepClaim& claim) const;
+  Vector states_at(const ArbBall& elapsed) const;
   bool stays_in_tube(const StepClaim& claim, const Vector& hull);
   int order_of_derivatives(const StepClaim& claim) const;
   void find_derivatives(const ArbBall& length);

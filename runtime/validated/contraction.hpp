@@ -115,9 +115,9 @@ class BallFunction {
 /// Thins a set with one integral.
 ///
 /// Let I be constant along the solutions, as it is as long as they stay where it is analytic: that
-/// is asked of every piece of the way (`stays_on`), and an integral is given up for good where it
-/// is not certain (the angle of a state jumps at its cut, as a logarithm may at a pole). Then every
-/// state x of the set has I(x) = c for the c of its start, and by the mean value theorem
+/// is asked of every piece of the way (`is_analytic_on`), and an integral is given up for good
+/// where it is not certain (the angle of a state jumps at its cut, as a logarithm may at a pole).
+/// Then every state x of the set has I(x) = c for the c of its start, and by the mean value theorem
 ///   g (x - m) = c - I(m)   with a g in the gradients over a convex box that contains x and m.
 /// With x - m = C s + B r and, for the start m_0 + s, c = I(m_0) + g_0 s,
 ///   (g B) r = I(m_0) - I(m) + (g_0 - g C) s,
@@ -169,15 +169,17 @@ class Contractor {
     }
   }
 
-  /// Looks whether the integral is analytic on a piece of the way.
-  void stays_on(const std::vector<Ball>& tube, const Ball& time) {
-    if (polynomial_ || !usable_) return;
+  /// Whether the integral is certain to be analytic on a box that solutions go through.
+  bool is_analytic_on(const std::vector<Ball>& box, const Ball& time) {
+    if (polynomial_) return true;
     try {
-      is_analytic_on(tube, time);
+      return is_usable(value_(box, time)[0]);
     } catch (const std::domain_error&) {
-      usable_ = false;
+      return false;
     }
   }
+  /// It was not analytic all along.
+  void give_up() { usable_ = false; }
 
   /// The direction that the set is to be thin along, at a point; empty where there is none.
   std::vector<double> direction(const std::vector<Ball>& at, const Ball& time) {
@@ -198,8 +200,8 @@ class Contractor {
                 const Ball& time) {
     std::vector<Ball> gradient;
     Ball right;
+    if (!is_analytic_on(hull, time)) return true;
     try {
-      if (!polynomial_) is_analytic_on(hull, time);
       gradient = gradient_over(hull, time);
       right = offset(set.middle, time);
     } catch (const std::domain_error&) {
@@ -248,10 +250,6 @@ class Contractor {
   }
 
  private:
-  void is_analytic_on(const std::vector<Ball>& box, const Ball& time) {
-    if (!is_usable(value_(box, time)[0])) throw std::domain_error("no value");
-  }
-
   /// g A
   template <class Number>
   static std::vector<Ball> product_of(const std::vector<Ball>& g, const Matrix<Number>& a) {

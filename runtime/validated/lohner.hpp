@@ -128,8 +128,12 @@ class Lohner {
 
   /// Solutions go on for h at the most: looks whether the integrals are analytic all the way.
   void pass(const Ball& h) {
-    for (Contractor<Ball>& contractor : contractors_)
-      contractor.stays_on(piece_.tube(), time_of(elapsed_ + from_zero_to(h)));
+    for (Contractor<Ball>& contractor : contractors_) {
+      if (!contractor.usable() ||
+          contractor.is_analytic_on(piece_.tube(), time_of(elapsed_ + from_zero_to(h))))
+        continue;
+      if (!is_analytic_on_parts(contractor, h)) contractor.give_up();
+    }
   }
 
   /// Expands the flow from the set, and says how far a step might go: log2 of it.
@@ -252,6 +256,18 @@ class Lohner {
  private:
   /// Steps are meant to be enclosed at the first try: remainders are aimed at 2^-2 of their bound.
   static constexpr double kReserve = 2;
+
+  /// The box around an arc of a circle may contain the middle of the circle: parts of the step are
+  /// looked at one by one.
+  bool is_analytic_on_parts(Contractor<Ball>& contractor, const Ball& h) {
+    constexpr int kParts = 16;
+    const Ball length = h * Ball(1. / kParts);
+    for (int k = 0; k < kParts; ++k) {
+      const Ball t = length * Ball(static_cast<double>(k)) + from_zero_to(length);
+      if (!contractor.is_analytic_on(box_at(t), time_of(elapsed_ + t))) return false;
+    }
+    return true;
+  }
 
   Ball time_of(const Ball& elapsed) const { return settings_.forwards ? elapsed : -elapsed; }
 

@@ -70,6 +70,35 @@ TEST(ArbitraryFunctions, DoNotMakeAClaimAboutNothingTrue) {
             Verdict::undecided);
 }
 
+/// U(sqrt(A)) is 1 + A for U = 1 + r^2, which has values where A < 0.
+TEST(ArbitraryFunctions, KeepTheDomainsOfTheirArguments) {
+  const auto identity = [](const std::string& text, const std::string& more = "") {
+    const Model model = model_of(
+        "hamiltonian = \"p^2/2 + q^2/2\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = "
+        "true\n" +
+        more + "[functions]\nU = [\"r\"]\n");
+    Candidates candidates;
+    candidates.identities = {{text, {}, {}}};
+    return prove(model, candidates)[0].verdict;
+  };
+  // True wherever the root is real.
+  EXPECT_NE(identity("U(sqrt(q^3 + q + exp(q) - 1))*(abs(q) - q) = 0"), Verdict::refuted);
+  EXPECT_NE(identity("U(sqrt(atan2(p, q)))*(abs(p) - p) = 0"), Verdict::refuted);
+  EXPECT_NE(identity("U'(sqrt(q^3 + q + exp(q) - 1))*(abs(q) - q) = 0"), Verdict::refuted);
+  // About nothing.
+  EXPECT_EQ(identity("U(sqrt(q)) = U(sqrt(-q))", "domain = [\"q > 0\"]\n"), Verdict::undecided);
+  EXPECT_EQ(identity("(sin(q)^2 + cos(q)^2)*U(sqrt(-1 - q^2)) = U(sqrt(-1 - q^2))"),
+            Verdict::undecided);
+  // About something.
+  EXPECT_EQ(identity("(sin(q)^2 + cos(q)^2)*U(sqrt(1 - q^2)) = U(sqrt(1 - q^2))"), Verdict::proved);
+  EXPECT_EQ(identity("U(sqrt(q)) = U(2*sqrt(q))"), Verdict::refuted);
+  const Model model = model_of(
+      "hamiltonian = \"p^2/2 + q^2/2\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = "
+      "true\n[functions]\nU = [\"r\"]\n");
+  EXPECT_NE(integral(model, "U(sqrt(q^3 + q + exp(q) - 1))*(abs(q) - q)").verdict,
+            Verdict::refuted);
+}
+
 TEST(ArbitraryFunctions, KeepTheirSignsWhereThatIsAssumed) {
   const Model model = model_of(
       "hamiltonian = \"p^2/2 + U(q)\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = "

@@ -8,6 +8,7 @@
 #include "codegen/optimise/lower.hpp"
 #include "codegen/optimise/terms.hpp"
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/principal_values.hpp"
 
 namespace casimir {
@@ -46,6 +47,28 @@ ex bound(const Model& model, const Scene& scene, const ex& part) {
   }
 }
 
+/// What the equations as they were written show no longer with the numbers and the functions of the
+/// scene in them.
+std::vector<ex> lost_in_scene(const Model& model, const Scene& scene) {
+  std::vector<ex> written;
+  if (model.hamiltonian && model.poisson) {  // the field is derived from these
+    written.push_back(*model.hamiltonian);
+    for (std::size_t i = 0; i < model.poisson->dimension(); ++i)
+      for (std::size_t j = i + 1; j < model.poisson->dimension(); ++j)
+        written.push_back((*model.poisson)(i, j));
+  } else {
+    written = model.field;
+  }
+  GiNaC::exmap values;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    values[model.parameters[i]] = scene.parameters[i];
+  std::vector<ex> lost;
+  for (const ex& e : written)
+    for (const ex& part : lost_in_substitution(e, values, model.limits, VanishingTerms::dropped))
+      lost.push_back(bound(model, scene, part));
+  return lost;
+}
+
 /// The variables and the time.
 std::vector<GiNaC::symbol> symbols_in(const Model& model) {
   std::vector<GiNaC::symbol> symbols = model.variables;
@@ -53,15 +76,38 @@ std::vector<GiNaC::symbol> symbols_in(const Model& model) {
   return symbols;
 }
 
-/// Whether a factor stands in an expression: itself, or a pole as another power of the same.
+/// Whether b^r has values wherever b^s has them: both are roots of b, or poles of it.
+bool has_values_like(const ex& root, const ex& other) {
+  if (!GiNaC::is_a<GiNaC::power>(other) || !other.op(0).is_equal(root.op(0))) return false;
+  const ex r = root.op(1), s = other.op(1);
+  if (!r.info(GiNaC::info_flags::rational) || !s.info(GiNaC::info_flags::rational)) return false;
+  const bool is_pole = r.info(GiNaC::info_flags::negative);
+  if (is_pole && !s.info(GiNaC::info_flags::negative)) return false;
+  return r.info(GiNaC::info_flags::integer) || !s.info(GiNaC::info_flags::integer);
+}
+
+/// Whether a factor stands in an expression: itself, or another power of the same that has values
+/// where it has them only.
 bool shows_factor(const ex& e, const ex& factor) {
   if (e.has(factor)) return true;
-  if (!GiNaC::is_a<GiNaC::power>(factor) || !factor.op(1).info(GiNaC::info_flags::negint))
-    return false;
-  return std::any_of(e.preorder_begin(), e.preorder_end(), [&](const ex& part) {
-    return GiNaC::is_a<GiNaC::power>(part) && part.op(0).is_equal(factor.op(0)) &&
-           part.op(1).info(GiNaC::info_flags::negint);
-  });
+  if (!GiNaC::is_a<GiNaC::power>(factor)) return false;
+  return std::any_of(e.preorder_begin(), e.preorder_end(),
+                     [&](const ex& part) { return has_values_like(factor, part); });
+}
+
+/// Whether an expression is a sum of even powers, as one sees.
+bool is_sum_of_squares(const ex& e) {
+  if (GiNaC::is_a<GiNaC::numeric>(e)) return !e.info(GiNaC::info_flags::negative);
+  if (GiNaC::is_a<GiNaC::power>(e))
+    return e.op(1).info(GiNaC::info_flags::even) && e.op(1).info(GiNaC::info_flags::positive);
+  return (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) &&
+         std::all_of(e.begin(), e.end(), is_sum_of_squares);
+}
+
+/// Whether a part is a root that is real everywhere.
+bool is_root_of_squares(const ex& part) {
+  return GiNaC::is_a<GiNaC::power>(part) && part.op(1).info(GiNaC::info_flags::positive) &&
+         is_sum_of_squares(part.op(0));
 }
 
 /// Whether an expression has no value where a part has none, as it is written: it shows all factors
@@ -95,19 +141,20 @@ Program program_of_parts(const std::vector<ex>& parts, const std::vector<GiNaC::
 }  // namespace
 
 std::vector<ex> cancelled_parts(const Model& model, const Scene& binding) {
+  std::vector<ex> candidates;
+  for (const std::vector<ex>* list : {&model.domain, &model.bracket_domain})
+    for (const ex& written : *list) candidates.push_back(bound(model, binding, written));
+  for (ex& part : lost_in_scene(model, binding)) candidates.push_back(std::move(part));
+  if (candidates.empty()) return candidates;
   std::vector<ex> fields, parts;
-  if (model.domain.empty() && model.bracket_domain.empty()) return parts;
   for (const ex& rate : model.field) fields.push_back(model.at_parameters(rate, binding));
-  for (const std::vector<ex>* list : {&model.domain, &model.bracket_domain}) {
-    for (const ex& written : *list) {
-      const ex part = bound(model, binding, written);
-      const auto is_it = [&](const ex& other) { return other.is_equal(part); };
-      const auto shows_it = [&](const ex& rate) { return shows(rate, part); };
-      if (GiNaC::is_a<GiNaC::numeric>(part) || std::ranges::any_of(parts, is_it) ||
-          std::ranges::any_of(fields, shows_it))
-        continue;
-      parts.push_back(part);
-    }
+  for (const ex& part : candidates) {
+    const auto is_it = [&](const ex& other) { return other.is_equal(part); };
+    const auto shows_it = [&](const ex& rate) { return shows(rate, part); };
+    if (GiNaC::is_a<GiNaC::numeric>(part) || is_root_of_squares(part) ||
+        std::ranges::any_of(parts, is_it) || std::ranges::any_of(fields, shows_it))
+      continue;
+    parts.push_back(part);
   }
   return parts;
 }

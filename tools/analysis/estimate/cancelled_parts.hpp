@@ -12,9 +12,10 @@
 
 namespace casimir {
 
-/// What the equations were written with and no longer show, as sqrt(x) of sqrt(x)^2, in terms of
-/// the variables, the time and whatever `binding` leaves open: a solution is one of the case only
-/// as long as all of it has values. Numbers have them, and are left out.
+/// What the equations were written with and no longer show, as sqrt(x) of sqrt(x)^2, or of
+/// sqrt(x)^a where the scene says a = 2, in terms of the variables, the time and whatever `binding`
+/// leaves open; terms that the scene makes zero are not there at all: a solution is one of the case
+/// only as long as all of it has values. Numbers have them, and are left out.
 /// \throws ModelError  for one that has no value whatever the variables are
 std::vector<GiNaC::ex> cancelled_parts(const Model& model, const Scene& binding);
 
