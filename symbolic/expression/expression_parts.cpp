@@ -22,6 +22,11 @@ std::unordered_set<ex> visible_parts(const ex& value) {
   return parts;
 }
 
+/// It has a value wherever its base has one.
+bool is_ring_power(const ex& part) {
+  return GiNaC::is_a<GiNaC::power>(part) && part.op(1).info(GiNaC::info_flags::posint);
+}
+
 class LostInSubstitution {
  public:
   LostInSubstitution(const GiNaC::exmap& values, const Limits& limits, VanishingTerms vanishing)
@@ -44,7 +49,7 @@ class LostInSubstitution {
       if (vanishing_ == VanishingTerms::dropped && now.is_zero()) return;
       if (is_part)
         for (const ex& part : visible_parts(now))
-          if (known_.insert(part).second) lost_.push_back(part);
+          if (!is_ring_power(part) && known_.insert(part).second) lost_.push_back(part);
     }
     for (std::size_t i = 0; i < e.nops(); ++i) visit(e.op(i));
   }

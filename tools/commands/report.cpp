@@ -24,6 +24,7 @@
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/show/book_order.hpp"
+#include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/proof_table.hpp"
 
 namespace casimir::tools {
@@ -88,12 +89,14 @@ Json page_json(const Model& model, const Findings& findings, const Pictures& pic
       {"scene", findings.scene ? Json(findings.scene->name) : Json(nullptr)},
       {"file", path},
       {"verdict", to_string(findings.verdict)},
+      {"where", conditions_of(model, findings.proofs)},
       {"claims",
        {{"proved", tally.proved}, {"refuted", tally.refuted}, {"undecided", tally.undecided}}},
       {"runs", findings.runs.size() + (findings.contest ? findings.contest->rows.size() : 0)},
       {"plots", drawn(pictures)},
       {"notes", findings.notes},
       {"problems", findings.problems}};
+  if (json["where"].empty()) json.erase("where");
   if (!pictures.problem.empty()) json["problems"].push_back(pictures.problem);
   json["seconds"] = seconds;
   return json;
@@ -160,8 +163,8 @@ int report_one(const ReportArguments& options) {
   if (options.common.json) {
     print_json(written.json);
   } else if (!options.common.quiet) {
-    fmt::print("wrote {}: {}, {}\n", printable(path, 200), to_string(written.entry.verdict),
-               written.entry.claims);
+    fmt::print("wrote {}: {}{}, {}\n", printable(path, 200), to_string(written.entry.verdict),
+               where_text(written.entry.where), written.entry.claims);
     for (const auto& note : written.json.at("notes"))
       fmt::print("  note: {}\n", note.get<std::string>());
   }

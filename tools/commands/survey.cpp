@@ -17,6 +17,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/cli/stopwatch.hpp"
 #include "tools/text/files/marked_file.hpp"
+#include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/survey_table.hpp"
 
 namespace casimir::tools {
@@ -49,6 +50,7 @@ SurveyRow survey_one(const CaseFile& file, const SurveyArguments& options, doubl
                 .phase_space = model.phase_space,
                 .dimension = model.variables.size(),
                 .verdict = overall(model, proofs),
+                .where = conditions_of(model, proofs),
                 .claims = tally_of(model, proofs),
                 .scenes = {},
                 .work = std::nullopt};

@@ -4,6 +4,7 @@
 #include "tools/report/page.hpp"
 #include "tools/runs/further_integral.hpp"
 #include "tools/show/nve_view.hpp"
+#include "tools/text/proofs/proof_details.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/proof_table.hpp"
 #include "tools/text/runs/run_report.hpp"
@@ -13,7 +14,7 @@
 namespace casimir::tools {
 namespace {
 
-std::string labelled(const char* label, const std::string& words) {
+std::string labelled(const std::string& label, const std::string& words) {
   return fmt::format("<div><span class=\"label\">{}</span> {}</div>", label,
                      html::text(words, 4000));
 }
@@ -27,14 +28,7 @@ std::string kind_words(std::string kind) {
 std::string details(const Proof& proof) {
   std::string text;
   if (!proof.evidence.empty()) text += "<div>" + html::text(proof.evidence, 4000) + "</div>";
-  if (!proof.reason.empty()) text += labelled("reason", proof.reason);
-  if (!proof.residual.empty()) text += labelled("residual", proof.residual);
-  if (proof.witness) {
-    std::string point;
-    for (const auto& [name, value] : proof.witness->point)
-      point += (point.empty() ? "" : ", ") + name + " = " + value;
-    text += labelled("witness", point) + labelled("value there", proof.witness->value);
-  }
+  for (const ProofDetail& own : details_of(proof)) text += labelled(own.label, own.text);
   for (const std::string& line : judgement_lines(proof))
     text += "<div>" + html::text(line) + "</div>";
   return text.empty() ? "" : "<div class=\"evidence\">" + text + "</div>";
@@ -44,6 +38,8 @@ std::string claim(const Proof& proof) {
   std::string on;
   for (const std::string& level : proof.on) on += (on.empty() ? "" : " = ") + html::text(level);
   if (!on.empty()) on = " <span class=\"on\">on " + on + " = 0</span>";
+  if (!proof.where.empty())
+    on += " <span class=\"on\">" + html::text(where_text(proof.where), 4000) + "</span>";
   return fmt::format(
       "<li class=\"claim {}\"><span class=\"verdict\">{}</span> <span class=\"kind\">{}</span> "
       "<span class=\"name\">{}{}</span> <span class=\"time\">{}</span>{}</li>\n",

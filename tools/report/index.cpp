@@ -11,6 +11,7 @@
 #include "tools/report/page.hpp"
 #include "tools/report/script/script.hpp"
 #include "tools/show/book_order.hpp"
+#include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/proof_table.hpp"
 #include "tools/typeset/html.hpp"
 
@@ -73,9 +74,9 @@ std::string card(const IndexEntry& entry) {
       entry.book.empty() ? "" : ", " + html::text(book_text(entry.book)),
       entry.phase_space.empty() ? "" : ", " + html::text(entry.phase_space));
   if (!entry.problem.empty()) return text + html::paragraph(entry.problem) + "</div></li>\n";
-  text +=
-      fmt::format("<p><span class=\"badge {}\">{}</span> <small>{}</small></p>\n",
-                  to_string(entry.verdict), verdict_mark(entry.verdict), html::text(entry.claims));
+  text += fmt::format("<p><span class=\"badge {}\">{}</span>{} <small>{}</small></p>\n",
+                      to_string(entry.verdict), verdict_mark(entry.verdict),
+                      html::text(where_text(entry.where), 400), html::text(entry.claims));
   return text + "<p class=\"soft\"><small>" + measures(entry) + "</small></p></div></li>\n";
 }
 
@@ -106,6 +107,7 @@ IndexEntry entry_of(const Model& model, const Findings& findings, const std::str
                    .thumbnail = thumbnail,
                    .link = link,
                    .verdict = findings.verdict,
+                   .where = conditions_of(model, findings.proofs),
                    .claims = tally_of(model, findings.proofs).text()};
   if (findings.code) {
     entry.general = findings.code->general;

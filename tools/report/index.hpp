@@ -14,7 +14,8 @@ struct IndexEntry {
   std::string thumbnail = {};  ///< an SVG element, or empty
   std::string link = {};       ///< relative; empty where there is no page
   Verdict verdict = Verdict::undecided;
-  std::string claims = {};  ///< "12 proved, 0 refuted, 0 undecided"
+  std::vector<std::string> where{};  ///< what that depends on
+  std::string claims = {};           ///< "12 proved, 0 refuted, 0 undecided"
   std::optional<OperationCount> general = {}, specialised = {};
   double drift = -1;         ///< largest; negative: nothing was integrated
   std::string fastest = {};  ///< to an error of 1e-9: "taylor, 43 us"

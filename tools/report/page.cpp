@@ -8,6 +8,7 @@
 #include "symbolic/error.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/report/style.hpp"
+#include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/proof_table.hpp"
 #include "tools/typeset/html.hpp"
 
@@ -61,7 +62,8 @@ std::string head_part(const Model& model, const Findings& findings) {
       fmt::format("{}, {}, {} variables", model.name, model.phase_space, model.variables.size()));
   if (!model.source.empty()) text += "; " + html::text(model.source);
   text += "</p>\n<p><span class=\"badge " + to_string(findings.verdict) + "\">" +
-          verdict_mark(findings.verdict) + "</span> " +
+          verdict_mark(findings.verdict) + "</span>" +
+          html::text(where_text(conditions_of(model, findings.proofs)), 4000) + " " +
           html::text(tally_of(model, findings.proofs).text()) +
           (model.integrable ? "; the case claims Liouville integrability" : "") + "</p>\n";
   return text + "</header>\n";

@@ -1,6 +1,7 @@
 #include "tools/text/proofs/proof_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -38,6 +39,10 @@ std::vector<std::string> conditions_of(const Model& model, const std::vector<Pro
     }
   }
   return result;
+}
+
+std::string where_text(const std::vector<std::string>& conditions) {
+  return conditions.empty() ? "" : fmt::format(" where {}", fmt::join(conditions, ", "));
 }
 
 std::vector<std::string> judgement_lines(const Proof& note) {

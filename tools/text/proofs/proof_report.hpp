@@ -17,6 +17,9 @@ nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& pro
 /// where that is not "proved": what refutes or stays open does so without the others' conditions.
 std::vector<std::string> conditions_of(const Model& model, const std::vector<Proof>& proofs);
 
+/// " where a != 0, b > 0"; nothing without conditions.
+std::string where_text(const std::vector<std::string>& conditions);
+
 /// The findings of a judgement in words: "it is no Casimir function: ..".
 std::vector<std::string> judgement_lines(const Proof& note);
 

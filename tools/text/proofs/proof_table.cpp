@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tools/text/proofs/proof_details.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/runs/run_report.hpp"
 #include "tools/text/text_layout.hpp"
@@ -21,8 +22,7 @@ std::string name_of(const Proof& proof) {
   std::string name = proof.name;
   if (!proof.on.empty()) name += fmt::format(" on {} = 0", fmt::join(proof.on, " = "));
   // A verdict with a condition says so in its line.
-  if (!proof.where.empty()) name += fmt::format(" where {}", fmt::join(proof.where, ", "));
-  return name;
+  return name + where_text(proof.where);
 }
 
 /// The lines of a name in a column. Conditions that would take many of them stand in a detail.
@@ -36,43 +36,9 @@ std::vector<std::string> lines_of_name(const Proof& proof, std::size_t columns, 
   return wrapped(name_of(named), columns);
 }
 
-std::string witness_text(const Witness& witness) {
-  std::string text;
-  for (const auto& [name, value] : witness.point)
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
-  return text;
-}
-
 std::string trimmed(std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);
   return line;
-}
-
-/// What the integrals of a Lax pair are enough for.
-std::string spectrum_text(const SpectrumCount& count) {
-  std::string text;
-  if (count.involution == Verdict::proved) text += "all in involution; ";
-  if (count.involution == Verdict::refuted) text += "not all in involution; ";
-  if (count.on_leaves && count.leaf > 0)
-    text +=
-        fmt::format("{} independent on leaves of dimension {}, {}{}", *count.on_leaves, count.leaf,
-                    count.at.empty() ? "for almost all values of variables and parameters"
-                                     : fmt::format("on the level around {}", count.at),
-                    count.verdict == Verdict::undecided ? "; " : ": ");
-  switch (count.verdict) {
-    case Verdict::proved:
-      text += "enough for Liouville integrability";
-      break;
-    case Verdict::refuted:
-      text += "not enough for Liouville integrability, which takes further ones";
-      break;
-    case Verdict::undecided:
-      return text +
-             fmt::format("whether they are enough for Liouville integrability is undecided: {}",
-                         count.reason);
-  }
-  if (!count.where.empty()) text += fmt::format(" where {}", fmt::join(count.where, ", "));
-  return text;
 }
 
 }  // namespace
@@ -167,27 +133,7 @@ std::string ProofTable::details(const Proof& proof, bool with_evidence, bool wit
   };
   if (with_where) detail("where", fmt::format("{}", fmt::join(proof.where, ", ")));
   if (with_evidence && !proof.evidence.empty()) detail("", proof.evidence);
-  for (const std::string& integral : proof.integrals) detail("gives", integral);
-  if (proof.spectrum) detail("count", spectrum_text(*proof.spectrum));
-  if (!proof.reason.empty()) detail("reason", proof.reason);
-  if (!proof.residual.empty()) detail("residual", proof.residual);
-  if (proof.witness) {
-    detail("witness", witness_text(*proof.witness));
-    detail("value", proof.witness->value);
-  }
-  std::vector<std::string> where;
-  const auto add = [&](const std::string& condition) {
-    const auto known = [&](const std::vector<std::string>& list) {
-      return std::find(list.begin(), list.end(), condition) != list.end();
-    };
-    if (!known(where) && !known(proof.where)) where.push_back(condition);
-  };
-  for (const std::string& d : proof.nonzero) add(d + " != 0");
-  for (const std::string& p : proof.positive) {
-    const bool strict = std::ranges::find(proof.not_zero, p) != proof.not_zero.end();
-    add(p + (strict ? " > 0" : " >= 0"));
-  }
-  if (!where.empty()) detail("defined", fmt::format("where {}", fmt::join(where, ", ")));
+  for (const ProofDetail& own : details_of(proof)) detail(own.label, own.text);
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "symbolic/error.hpp"
 #include "tools/show/book_order.hpp"
 #include "tools/text/files/generated_report.hpp"
+#include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/runs/run_report.hpp"
 #include "tools/text/text_layout.hpp"
 
@@ -70,6 +71,15 @@ std::string totals(const std::vector<SurveyRow>& rows) {
       rows.size(), rows.size() == 1 ? "" : "s", claims.proved, claims.all(), general, specialised);
 }
 
+/// Which cases are proved on conditions alone, a line for each.
+std::string conditions(const std::vector<SurveyRow>& rows, const std::string& line_end) {
+  std::string text;
+  for (const SurveyRow& row : rows)
+    if (!row.where.empty())
+      text += fmt::format("{} is proved{}{}", row.case_name, where_text(row.where), line_end);
+  return text;
+}
+
 /// A bar would end the cell.
 std::string markdown_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
@@ -100,12 +110,14 @@ nlohmann::ordered_json to_json(const std::vector<SurveyRow>& rows) {
                                 {"dimension", row.dimension},
                                 {"phase_space", row.phase_space},
                                 {"verdict", to_string(row.verdict)},
+                                {"where", row.where},
                                 {"claims",
                                  {{"counted", row.claims.all()},
                                   {"proved", row.claims.proved},
                                   {"refuted", row.claims.refuted},
                                   {"undecided", row.claims.undecided}}},
                                 {"scenes", row.scenes}};
+    if (row.where.empty()) json.erase("where");
     if (row.work) {
       json["scene"] = row.work->scene;
       json["operations"] = {{"general", to_json(row.work->general)},
@@ -140,7 +152,7 @@ std::string to_text(const std::vector<SurveyRow>& rows) {
     out.erase(out.find_last_not_of(' ') + 1);
     text += out + "\n";
   }
-  return text + "\n" + totals(rows) + "\n";
+  return text + "\n" + conditions(rows, "\n") + totals(rows) + "\n";
 }
 
 std::string to_markdown(const std::vector<SurveyRow>& rows) {
@@ -155,14 +167,14 @@ std::string to_markdown(const std::vector<SurveyRow>& rows) {
     for (const std::string& cell : cells(row)) text += " " + markdown_cell(cell) + " |";
     text += "\n";
   }
-  return text + "\n" + totals(rows) + ".\n";
+  return text + "\n" + conditions(rows, ".\n\n") + totals(rows) + ".\n";
 }
 
 std::string to_csv(const std::vector<SurveyRow>& rows) {
   std::string text =
       "case,book,title,dimension,phase_space,verdict,proved,refuted,undecided,scenes,scene,"
       "general_mul,general_add,general_div,general_calls,specialised_mul,specialised_add,"
-      "specialised_div,specialised_calls,states,kept\n";
+      "specialised_div,specialised_calls,states,kept,where\n";
   for (const SurveyRow& row : rows) {
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},", csv_field(row.case_name),
                         csv_field(row.book), csv_field(row.title), row.dimension,
@@ -170,10 +182,11 @@ std::string to_csv(const std::vector<SurveyRow>& rows) {
                         row.claims.refuted, row.claims.undecided, row.scenes.size());
     if (row.work)
       text +=
-          fmt::format("{},{},{},{},{}\n", csv_field(row.work->scene), csv_counts(row.work->general),
+          fmt::format("{},{},{},{},{}", csv_field(row.work->scene), csv_counts(row.work->general),
                       csv_counts(row.work->specialised), row.work->states, row.work->kept);
     else
-      text += ",,,,,,,,,,\n";
+      text += ",,,,,,,,,,";
+    text += fmt::format(",{}\n", csv_field(fmt::format("{}", fmt::join(row.where, ", "))));
   }
   return text;
 }

@@ -22,7 +22,8 @@ struct SurveyRow {
   std::string case_name, book, title, phase_space;
   std::size_t dimension = 0;
   Verdict verdict = Verdict::undecided;
-  Tally claims;  ///< those that count towards the verdict
+  std::vector<std::string> where;  ///< what that depends on: as of `conditions_of`
+  Tally claims;                    ///< those that count towards the verdict
   std::vector<std::string> scenes;
   std::optional<SceneWork> work;  ///< none for a case without scenes
 };

@@ -53,10 +53,9 @@ void CaseReport::end(const std::vector<Proof>& proofs, double seconds) const {
   const Tally claims = tally_of(model_, proofs);
   const auto beside = std::ranges::count_if(
       proofs, [&](const Proof& proof) { return proof.fact && !counts(model_, proof); });
-  const std::vector<std::string> where = conditions_of(model_, proofs);
   fmt::print("\n{}{}  {}: {}", verdict_text(overall(model_, proofs), colour(), kVerdictWidth),
-             where.empty() ? "" : fmt::format(" where {}", fmt::join(where, ", ")),
-             plural(claims.all(), "claim"), claims.text());
+             where_text(conditions_of(model_, proofs)), plural(claims.all(), "claim"),
+             claims.text());
   if (beside > 0) fmt::print(" (and {} beside)", plural(static_cast<std::size_t>(beside), "fact"));
   fmt::print("; {}\n", duration_text(seconds));
   std::fflush(stdout);
@@ -67,7 +66,12 @@ CaseOutcome outcome_of(const Model& model, const std::vector<Proof>& proofs, dou
   std::ranges::copy_if(proofs, std::back_inserter(open), [&](const Proof& proof) {
     return proof.verdict != Verdict::proved && counts(model, proof);
   });
-  return {model.name, overall(model, proofs), tally_of(model, proofs), open, seconds};
+  return {model.name,
+          overall(model, proofs),
+          conditions_of(model, proofs),
+          tally_of(model, proofs),
+          open,
+          seconds};
 }
 
 AllReport::AllReport(const std::vector<std::filesystem::path>& paths) {
@@ -83,7 +87,10 @@ void AllReport::row(const CaseOutcome& outcome) {
              verdict_text(outcome.verdict, colour(), kVerdictWidth),
              padded(outcome.name, name_width_), tally.all(), tally.proved, tally.refuted,
              tally.undecided, duration_text(outcome.seconds));
-  const ProofTable table(outcome.open, output_width(), colour(), 11);
+  constexpr std::size_t kIndent = 11;
+  if (!outcome.where.empty())
+    fmt::print("{}{}\n", std::string(kIndent - 1, ' '), where_text(outcome.where));
+  const ProofTable table(outcome.open, output_width(), colour(), kIndent);
   for (const Proof& proof : outcome.open) fmt::print("{}", table.row(proof));
   std::fflush(stdout);
   ++cases_;

@@ -31,6 +31,7 @@ class CaseReport {
 struct CaseOutcome {
   std::string name;
   Verdict verdict;
+  std::vector<std::string> where;  ///< as of `conditions_of`
   Tally tally;
   std::vector<Proof> open;  ///< those that count and are not proved
   double seconds;
