@@ -1,5 +1,9 @@
 #include "codegen/dag/elliptic_nodes.hpp"
 
+#include <cln/float.h>
+#include <cln/integer.h>
+#include <cln/real.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,19 +52,6 @@ cln::cl_RA ratio(int top, int bottom) { return cln::cl_RA(top) / bottom; }
 
 /// Numbers from it to its inverse can be multiplied, and their roots, without leaving the doubles.
 cln::cl_RA least_double() { return 1 / cln::expt(cln::cl_RA(10), 150); }
-
-/// How many means bring 1 and the complementary modulus together.
-/// \throws ModelError  where no double tells the modulus from 1
-int means_of(const Scaled& k) {
-  if (k.node != Dag::kOne) return kMeans;
-  const cln::cl_RA square = 1 - k.coefficient * k.coefficient;
-  if (!(square > least_double()))
-    throw ModelError("the modulus of Jacobi's functions is too near to 1 or -1");
-  double q = std::sqrt(cln::double_approx(square));
-  int means = 1;
-  for (constexpr double kSame = 1e-9; 1 - q > kSame; ++means) q = 2 * std::sqrt(q) / (1 + q);
-  return std::max(means, kMeans);
-}
 
 /// How many duplications bring arguments together; constants need more where their sizes differ.
 /// \throws ModelError  where one is not positive, or their sizes are beyond those of doubles
@@ -184,24 +175,58 @@ Scaled third_kind(const Terms& t, Scaled x, Scaled y, Scaled z, Scaled p, int du
   return t.sum(sum);
 }
 
-/// Descending through the means from an angle that is 2^n times as large (DLMF 22.20.ii), with the
-/// quotients q = b/a of the means: (a - b)/(a + b) is (1 - q)/(1 + q). Of these no coefficient is
-/// squared again and again.
-Scaled amplitude(const Terms& t, const Scaled& u, const Scaled& k) {
-  Scaled a = t.one();
-  Scaled q = t.root(t.product({t.minus(t.one(), k), t.sum({t.one(), k})}));
+/// What the means a, b of 1 and k' are for: q = b/a in the end, and (a - b)/(a + b) = (1 - q)/(1 +
+/// q) on the way, from the first on.
+struct Means {
+  Scaled a, q;
   std::vector<Scaled> ratios;
-  const int means = means_of(k);
-  for (int n = 0; n < means; ++n) {
-    const Scaled sum = t.sum({t.one(), q});
-    ratios.push_back(t.over(t.minus(t.one(), q), sum));
-    a = t.times(ratio(1, 2), t.product({a, sum}));
-    q = t.times(2, t.over(t.root(q), sum));
+};
+
+/// Of quotients q alone, so that no coefficient is squared again and again.
+Means means(const Terms& t, const Scaled& k) {
+  Means result{t.one(), t.root(t.product({t.minus(t.one(), k), t.sum({t.one(), k})})), {}};
+  for (int n = 0; n < kMeans; ++n) {
+    const Scaled sum = t.sum({t.one(), result.q});
+    result.ratios.push_back(t.over(t.minus(t.one(), result.q), sum));
+    result.a = t.times(ratio(1, 2), t.product({result.a, sum}));
+    result.q = t.times(2, t.over(t.root(result.q), sum));
   }
+  return result;
+}
+
+/// The number up to 2^-140, which is more than any type of generated code has digits for.
+cln::cl_RA rounded(const cln::cl_F& value) {
+  constexpr int kBits = 140;
+  return cln::cl_RA(cln::round1(cln::scale_float(value, kBits))) / cln::ash(1, kBits);
+}
+
+/// Of a number. Left as roots, derivatives would multiply them out, to giants that cancel.
+/// \throws ModelError  where no double tells it from 1
+Means means_of_number(const Terms& t, const cln::cl_RA& k) {
+  const cln::cl_RA square = (1 - k) * (1 + k);
+  if (!(square > least_double()))
+    throw ModelError("the modulus of Jacobi's functions is too near to 1 or -1");
+  const cln::float_format_t digits = cln::float_format(100);
+  const cln::cl_F one = cln::cl_float(1, digits);
+  cln::cl_F a = one, q = cln::the<cln::cl_F>(cln::sqrt(cln::cl_float(square, digits)));
+  Means result;
+  for (const cln::cl_F same = cln::scale_float(one, -140); one - q > same;) {
+    result.ratios.push_back(t.number(rounded((one - q) / (one + q))));
+    a = cln::scale_float(a * (one + q), -1);
+    q = cln::scale_float(cln::the<cln::cl_F>(cln::sqrt(q)), 1) / (one + q);
+  }
+  result.a = t.number(cln::rational(cln::cl_float(a, cln::float_format(45))));
+  result.q = t.one();
+  return result;
+}
+
+/// Descending through the means from an angle that is 2^n times as large (DLMF 22.20.ii).
+Scaled amplitude(const Terms& t, const Scaled& u, const Means& m) {
   // By now q is 1; where k is 1, it is 0, and there is no angle.
-  Scaled angle = t.times(1 << means, t.product({t.over(a, q), u}));
-  for (std::size_t n = ratios.size(); n-- > 0;) {
-    const Scaled bent = t.call(Op::asin, t.product({ratios[n], t.call(Op::sin, angle)}));
+  Scaled angle =
+      t.times(cln::ash(1, static_cast<long>(m.ratios.size())), t.product({t.over(m.a, m.q), u}));
+  for (std::size_t n = m.ratios.size(); n-- > 0;) {
+    const Scaled bent = t.call(Op::asin, t.product({m.ratios[n], t.call(Op::sin, angle)}));
     angle = t.times(ratio(1, 2), t.sum({angle, bent}));
   }
   return angle;
@@ -209,7 +234,8 @@ Scaled amplitude(const Terms& t, const Scaled& u, const Scaled& k) {
 
 }  // namespace
 
-Scaled elliptic_node(Dag& dag, const std::string& name, const std::vector<Scaled>& arguments) {
+Scaled elliptic_node(Dag& dag, const std::string& name, const std::vector<Scaled>& arguments,
+                     const std::optional<cln::cl_RA>& modulus) {
   const Terms t(dag);
   if (name == "R_F")
     return first_kind(t, arguments[0], arguments[1], arguments[2], duplications_of(arguments));
@@ -219,10 +245,11 @@ Scaled elliptic_node(Dag& dag, const std::string& name, const std::vector<Scaled
     return third_kind(t, arguments[0], arguments[1], arguments[2], arguments[3],
                       duplications_of(arguments));
   const Scaled& k = arguments[1];
-  if (k.node == Dag::kOne && cln::abs(k.coefficient) >= 1)
+  if (modulus && cln::abs(*modulus) >= 1)
     throw ModelError(
         "the modulus of Jacobi's functions, the second argument, lies between -1 and 1");
-  const Scaled angle = amplitude(t, arguments[0], k);
+  const Scaled angle =
+      amplitude(t, arguments[0], modulus ? means_of_number(t, *modulus) : means(t, k));
   if (name == "am") return angle;
   if (name == "sn") return t.call(Op::sin, angle);
   const Scaled cosine = t.call(Op::cos, angle);

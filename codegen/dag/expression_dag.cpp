@@ -3,10 +3,13 @@
 #include <cln/integer.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "codegen/dag/elliptic_nodes.hpp"
 #include "runtime/program/function_table.hpp"
+#include "symbolic/algebra/ball_evaluator.hpp"
+#include "symbolic/algebra/flint_conversion.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/expression/arbitrary.hpp"
@@ -148,6 +151,22 @@ GiNaC::ex radicand(const GiNaC::ex& base, const cln::cl_RA& exponent) {
   return std::all_of(split.begin(), split.end(), is_square) ? split : base;
 }
 
+/// The modulus of one of Jacobi's functions, to many digits where it is a number.
+std::optional<cln::cl_RA> constant_modulus(const GiNaC::ex& e) {
+  if (e.nops() != 2) return std::nullopt;
+  if (GiNaC::is_a<GiNaC::numeric>(e.op(1))) return exact_value(e.op(1));
+  constexpr long kBits = 600;
+  try {
+    BallEvaluator evaluate(BallEvaluator::Numbers::real, kBits);
+    const Ball value = evaluate(e.op(1));
+    Rational middle;
+    arf_get_fmpq(middle.get(), arb_midref(acb_realref(value.raw())));
+    return middle.number();
+  } catch (const NotCertified&) {  // it is none, or has no value
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Scaled Dag::convert_new(const GiNaC::ex& e) {
@@ -187,7 +206,7 @@ Scaled Dag::convert_function(const GiNaC::ex& e) {
     throw ModelError("unknown function '" + name + "'");
   std::vector<Scaled> arguments;
   for (const GiNaC::ex& argument : e) arguments.push_back(convert(argument));
-  if (elliptic) return elliptic_node(*this, name, arguments);
+  if (elliptic) return elliptic_node(*this, name, arguments, constant_modulus(e));
   if (name == "atan") arguments.push_back({1, kOne});
   return call(row->op, std::move(arguments));
 }
@@ -242,6 +261,12 @@ Scaled Dag::primitive_sum(std::vector<Scaled> terms) {
   }
   cln::cl_RA content = divisor / multiple;
   if (cln::minusp(terms.front().coefficient)) content = -content;
+  // Beyond every number type, coefficients are brought below 1; by a square, which has a root.
+  constexpr unsigned long kMostBits = 100;
+  unsigned long bits = 0;
+  for (const Scaled& t : terms)
+    bits = std::max(bits, cln::integer_length(cln::numerator(t.coefficient / content)));
+  if (bits > kMostBits) content = content * cln::ash(1, static_cast<long>(bits + bits % 2));
   Node node;
   node.kind = NodeKind::sum;
   for (const Scaled& t : terms) node.terms.push_back({t.coefficient / content, t.node});

@@ -12,6 +12,7 @@
 #include <map>
 
 #include "codegen/emit/number_literal.hpp"
+#include "codegen/optimise/differentiate.hpp"
 #include "codegen/optimise/optimise.hpp"
 #include "runtime/evaluate.hpp"
 #include "symbolic/error.hpp"
@@ -59,6 +60,31 @@ TEST(EllipticNodes, OfJacobiAreThoseOfBoost) {
       expect_near(generated("dn", {u, k}), dn, "dn " + where);
       expect_near(std::sin(generated("am", {u, k})), sn, "am " + where);
     }
+}
+
+/// With its derivative, whose factors are numbers for every type of generated code.
+TEST(EllipticNodes, OfAModulusThatIsANumberAreThoseOfBoostAndHaveDerivatives) {
+  const GiNaC::symbol x("x");
+  std::vector<GiNaC::ex> moduli{GiNaC::sqrt(GiNaC::ex(2)) / 3, GiNaC::numeric(0),
+                                GiNaC::numeric(-2, 3), GiNaC::numeric(99, 100)};
+  for (int n = 1; n < 10; ++n) moduli.push_back(GiNaC::numeric(n, 10));
+  for (const GiNaC::ex& k : moduli) {
+    codegen::Dag dag({x}, 1);
+    const codegen::Scaled node = dag.convert(elliptic::sn(x, k));
+    const Program program = codegen::optimised(dag, {node}, {"x"}, {"value"});
+    const SparseProgram slope = codegen::jacobian(program, 1);
+    for (const double u : {-3.7, 0.2, 2.9}) {
+      double cn = 0, dn = 0;
+      const double modulus = GiNaC::ex_to<GiNaC::numeric>(k.evalf()).to_double();
+      const double sn = boost::math::jacobi_elliptic(modulus, u, &cn, &dn);
+      const std::string where = std::to_string(u) + " " + std::to_string(modulus);
+      expect_near(evaluate(program, std::vector<double>{u}).front(), sn, where);
+      expect_near(evaluate(slope.program, std::vector<double>{u}).front(), cn * dn, where);
+    }
+    for (const Program* own : {&program, &slope.program})
+      for (const cln::cl_RA& constant : own->constants)
+        EXPECT_NO_THROW(codegen::nearest<float>(constant)) << k;
+  }
 }
 
 TEST(EllipticNodes, OfCarlsonAreThoseOfBoost) {
