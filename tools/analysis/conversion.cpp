@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codegen/optimise/lower.hpp"
-#include "codegen/optimise/terms.hpp"
+#include "codegen/program_of.hpp"
 #include "runtime/evaluate.hpp"
 
 namespace casimir {
@@ -20,19 +19,6 @@ std::vector<std::string> names_of(const std::vector<GiNaC::symbol>& symbols) {
   std::vector<std::string> names;
   for (const GiNaC::symbol& s : symbols) names.push_back(s.get_name());
   return names;
-}
-
-Program program_of(const std::vector<GiNaC::ex>& functions,
-                   const std::vector<GiNaC::symbol>& variables) {
-  codegen::Dag dag(variables, variables.size());
-  std::vector<codegen::Scaled> outputs;
-  std::vector<std::string> labels;
-  for (const GiNaC::ex& f : functions) {
-    outputs.push_back(dag.convert(f));
-    labels.push_back(fmt::format("f{}", labels.size()));
-  }
-  return codegen::lowered(codegen::system_of(dag, variables.size(), outputs), names_of(variables),
-                          labels);
 }
 
 std::vector<GiNaC::ex> differences(const std::vector<Assumption>& domain) {

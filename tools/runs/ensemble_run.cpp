@@ -266,6 +266,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   settings.give_up = time_limit(request.common.time_limit);
   settings.invariant_terms = nullptr;
   Ensemble ensemble = members(run, file);
+  require_members(model, scene, run.specialisation, ensemble);
   scale_tolerances(request.run.request(request.common.limits), run, settings, ensemble);
   const EnsembleKernel kernel =
       ensemble_kernel(run, method, ensemble.size(), !(settings.fixed_step > 0));

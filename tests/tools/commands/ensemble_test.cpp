@@ -51,6 +51,20 @@ TEST(EnsembleFile, MembersAreTheSceneButForTheirColumns) {
   EXPECT_NE(json.at("members")[0].at("state"), json.at("members")[1].at("state"));
 }
 
+/// As a scene has to.
+TEST(EnsembleFile, MembersObeyTheAssumptionsAndLieOnTheConstraints) {
+  const Folder folder;
+  const auto refused = [&](const char* file, const char* why) {
+    const Outcome outcome = members(folder, file, {"integrate", "kovalevskaya"});
+    EXPECT_EQ(outcome.status, 2) << file;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+  };
+  refused("r\n1\n0\n", "member 2: the assumption r != 0 does not hold");
+  refused("g1,g2,g3\n1,0,0\n0,3/5,4/5\n1,1,1\n", "member 3: the constraint");
+  EXPECT_EQ(members(folder, "g1,g2,g3\n1,0,0\n0,3/5,4/5\n", {"integrate", "kovalevskaya"}).status,
+            0);
+}
+
 TEST(EnsembleFile, TableHasALineForEachMember) {
   const Folder folder;
   const Outcome outcome =

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codegen/optimise/lower.hpp"
-#include "codegen/optimise/terms.hpp"
+#include "codegen/program_of.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/principal_values.hpp"
@@ -126,18 +125,6 @@ bool is_pole_of_polynomial(const ex& part, const std::vector<GiNaC::symbol>& sym
   return part.op(0).is_polynomial(list);
 }
 
-Program program_of_parts(const std::vector<ex>& parts, const std::vector<GiNaC::symbol>& symbols) {
-  codegen::Dag dag(symbols, symbols.size());
-  std::vector<codegen::Scaled> outputs;
-  std::vector<std::string> inputs, labels;
-  for (const GiNaC::symbol& symbol : symbols) inputs.push_back(symbol.get_name());
-  for (const ex& part : parts) {
-    outputs.push_back(dag.convert(part));
-    labels.push_back(fmt::format("part{}", labels.size() + 1));
-  }
-  return codegen::lowered(codegen::system_of(dag, symbols.size(), outputs), inputs, labels);
-}
-
 }  // namespace
 
 std::vector<ex> cancelled_parts(const Model& model, const Scene& binding) {
@@ -186,7 +173,7 @@ CancelledParts::CancelledParts(const Model& model, const PreparedScene& run)
     texts_.push_back(printable(expression_text(part), 80));
   }
   if (parts.empty()) return;
-  values_.emplace(program_of_parts(parts, symbols));
+  values_.emplace(program_of(parts, symbols));
   inputs_.resize(symbols.size());
   now_.resize(parts.size());
   for (const std::string& name : s.states)

@@ -1,11 +1,15 @@
 #include "tools/analysis/run/ensemble_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "runtime/step/step_watch.hpp"
+#include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
+#include "tools/analysis/run/point_check.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
@@ -90,6 +94,17 @@ bool may_pass_over(const PreparedScene& run, const Settings& settings) {
   if (!(settings.fixed_step > 0)) return false;
   const double* const parameters = run.parameters.empty() ? nullptr : run.parameters.data();
   return StepWatch(run.specialisation.rhs).looks(parameters, run.initial.data());
+}
+
+void require_members(const Model& model, const Scene& scene, const Specialisation& s,
+                     const Ensemble& ensemble) {
+  if (model.constraints.empty() && model.assumptions.empty()) return;
+  PointCheck check(model, scene, s);
+  for (std::size_t member = 0; member < ensemble.size(); ++member) {
+    const double *x = ensemble.state(member), *p = ensemble.values_of(member);
+    const auto fault = check({x, x + ensemble.states}, {p, p + ensemble.parameters});
+    if (fault) throw RequestError(fmt::format("member {}: {}", member + 1, fault->text));
+  }
 }
 
 }  // namespace casimir

@@ -22,6 +22,11 @@ std::vector<std::size_t> members_to_check(
     std::size_t members, const std::function<bool(std::size_t)>& ended,
     const std::function<unsigned long long(std::size_t)>& steps);
 
+/// \throws RequestError  for a member that violates an assumption or leaves a constraint of the case,
+///                     which no scene does; the message names the first
+void require_members(const Model& model, const Scene& scene, const Specialisation& s,
+                     const Ensemble& ensemble);
+
 /// Integrates some members again by themselves, each for no more than about `budget` seconds, with
 /// an estimate of their errors: `members_to_check`. One that does not reach the end in that time is
 /// unconfirmed, and so are those after it. Members have no estimate of their own, and what

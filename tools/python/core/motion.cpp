@@ -379,6 +379,7 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     fill(members.initial, members.states, initial, places_of(variables, states, "a variable"));
     fill(members.values, members.parameters, values,
          places_of(parameters, s.parameters, "a parameter"));
+    require_members(model, model.scene(scene), s, members);
     const Method& by = method_named(method);
     const RunRequest asked = request(duration, tolerance, rtol, atol);
     Settings settings = settings_for(asked, run);

@@ -72,12 +72,12 @@ std::string totals(const std::vector<SurveyRow>& rows) {
 }
 
 /// Which cases are proved on conditions alone, a line for each.
-std::string conditions(const std::vector<SurveyRow>& rows, const std::string& line_end) {
+std::string conditions(const std::vector<SurveyRow>& rows, const std::string& begin) {
   std::string text;
   for (const SurveyRow& row : rows)
     if (!row.where.empty())
-      text += fmt::format("{} is proved{}{}", row.case_name, where_text(row.where), line_end);
-  return text;
+      text += fmt::format("{}{} is proved{}\n", begin, row.case_name, where_text(row.where));
+  return text.empty() ? "" : text + "\n";
 }
 
 /// A bar would end the cell.
@@ -85,6 +85,16 @@ std::string markdown_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
     text.insert(at, 1, '\\');
   return text;
+}
+
+/// Powers and products are no emphasis.
+std::string markdown_text(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '*' || c == '_') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
 }
 
 std::string csv_counts(const OperationCount& count) {
@@ -152,7 +162,7 @@ std::string to_text(const std::vector<SurveyRow>& rows) {
     out.erase(out.find_last_not_of(' ') + 1);
     text += out + "\n";
   }
-  return text + "\n" + conditions(rows, "\n") + totals(rows) + "\n";
+  return text + "\n" + conditions(rows, "") + totals(rows) + "\n";
 }
 
 std::string to_markdown(const std::vector<SurveyRow>& rows) {
@@ -167,7 +177,7 @@ std::string to_markdown(const std::vector<SurveyRow>& rows) {
     for (const std::string& cell : cells(row)) text += " " + markdown_cell(cell) + " |";
     text += "\n";
   }
-  return text + "\n" + conditions(rows, ".\n\n") + totals(rows) + ".\n";
+  return text + "\n" + markdown_text(conditions(rows, "- ")) + totals(rows) + ".\n";
 }
 
 std::string to_csv(const std::vector<SurveyRow>& rows) {

@@ -83,14 +83,12 @@ AllReport::AllReport(const std::vector<std::filesystem::path>& paths) {
 
 void AllReport::row(const CaseOutcome& outcome) {
   const Tally& tally = outcome.tally;
-  fmt::print("{}  {}  {:6}  {:6}  {:7}  {:9}  {:>9}\n",
+  fmt::print("{}  {}  {:6}  {:6}  {:7}  {:9}  {:>9}{}{}\n",
              verdict_text(outcome.verdict, colour(), kVerdictWidth),
              padded(outcome.name, name_width_), tally.all(), tally.proved, tally.refuted,
-             tally.undecided, duration_text(outcome.seconds));
-  constexpr std::size_t kIndent = 11;
-  if (!outcome.where.empty())
-    fmt::print("{}{}\n", std::string(kIndent - 1, ' '), where_text(outcome.where));
-  const ProofTable table(outcome.open, output_width(), colour(), kIndent);
+             tally.undecided, duration_text(outcome.seconds), outcome.where.empty() ? "" : " ",
+             where_text(outcome.where));
+  const ProofTable table(outcome.open, output_width(), colour(), 11);
   for (const Proof& proof : outcome.open) fmt::print("{}", table.row(proof));
   std::fflush(stdout);
   ++cases_;

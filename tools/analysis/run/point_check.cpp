@@ -1,0 +1,75 @@
+#include "tools/analysis/run/point_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "codegen/program_of.hpp"
+#include "runtime/evaluate.hpp"
+#include "symbolic/model/given_functions.hpp"
+
+namespace casimir {
+namespace {
+
+std::size_t place_among(const std::vector<GiNaC::symbol>& symbols, const std::string& name) {
+  const auto found = std::ranges::find_if(
+      symbols, [&](const GiNaC::symbol& symbol) { return symbol.get_name() == name; });
+  return static_cast<std::size_t>(found - symbols.begin());
+}
+
+bool vanishes(const SizedNumber& x) {
+  constexpr long double kRounding = 1e-13L;
+  return std::abs(x.value) <= kRounding * std::max(x.size, 1.0L);
+}
+
+bool holds(const Assumption& a, const SizedNumber& x) {
+  if (a.comparison == Comparison::equal) return vanishes(x);
+  return !std::isnan(x.value) && casimir::holds(a.comparison, (x.value > 0) - (x.value < 0));
+}
+
+}  // namespace
+
+PointCheck::PointCheck(const Model& model, const Scene& scene, const Specialisation& s) {
+  const auto [own, own_scene] =
+      has_arbitrary_functions(model) ? in_scene(model, scene) : std::pair{model, scene};
+  std::vector<GiNaC::ex> functions;
+  for (const NamedExpression& c : own.constraints) {
+    functions.push_back(c.value);
+    constraints_.push_back(c.name);
+  }
+  assumptions_ = own.assumptions;
+  for (const Assumption& a : assumptions_) functions.push_back(a.difference);
+  const std::vector<GiNaC::symbol> symbols = own.symbols();
+  program_ = program_of(functions, symbols);
+  const auto add = [&](const GiNaC::ex& e) {
+    inputs_.push_back(
+        Arithmetic<SizedNumber>::plain(GiNaC::ex_to<GiNaC::numeric>(e.evalf()).to_double()));
+  };
+  for (const GiNaC::ex& e : own_scene.initial) add(e);
+  for (const GiNaC::ex& e : own_scene.parameters) add(e);
+  for (const std::string& name : s.states) states_.push_back(place_among(symbols, name));
+  for (const std::string& name : s.parameters) parameters_.push_back(place_among(symbols, name));
+}
+
+std::optional<PointFault> PointCheck::operator()(const std::vector<double>& state,
+                                                 const std::vector<double>& parameters) {
+  for (std::size_t i = 0; i < state.size(); ++i)
+    inputs_[states_[i]] = Arithmetic<SizedNumber>::plain(state[i]);
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    inputs_[parameters_[i]] = Arithmetic<SizedNumber>::plain(parameters[i]);
+  if (std::ranges::any_of(inputs_, [](const SizedNumber& x) { return !std::isfinite(x.value); }))
+    return PointFault{false, "a value is no number"};
+  const std::vector<SizedNumber> values = evaluate(program_, inputs_);
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (!vanishes(values[i]))
+      return PointFault{true, fmt::format("the constraint {} is {:.3g} instead of 0",
+                                          constraints_[i], static_cast<double>(values[i].value))};
+  for (std::size_t i = 0; i < assumptions_.size(); ++i)
+    if (!holds(assumptions_[i], values[constraints_.size() + i]))
+      return PointFault{false,
+                        fmt::format("the assumption {} does not hold", assumptions_[i].text)};
+  return std::nullopt;
+}
+
+}  // namespace casimir
