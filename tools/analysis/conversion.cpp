@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "codegen/optimise/differentiate.hpp"
 #include "codegen/program_of.hpp"
 #include "runtime/evaluate.hpp"
 
@@ -42,6 +44,30 @@ const Assumption* failing(const Program& program, const std::vector<Assumption>&
   return nullptr;
 }
 
+/// The derivatives of the outputs by the inputs; no numbers where one has no value.
+Eigen::MatrixXd jacobian_at(const Program& program, const std::vector<double>& state) {
+  const SparseProgram jacobian = codegen::jacobian(program, state.size());
+  std::vector<double> entries(jacobian.entries.size(), std::nan(""));
+  try {
+    entries = evaluate(jacobian.program, state);
+  } catch (const std::domain_error&) {
+  }
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(program.outputs.size()),
+                                                 static_cast<Eigen::Index>(state.size()));
+  for (std::size_t e = 0; e < entries.size(); ++e)
+    result(jacobian.entries[e].first, jacobian.entries[e].second) = entries[e];
+  return result;
+}
+
+/// Directions that a matrix makes nothing of, as columns.
+Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& matrix) {
+  constexpr double kRounding = 1e-10;
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
+  lu.setThreshold(kRounding);
+  if (lu.dimensionOfKernel() == 0) return Eigen::MatrixXd(matrix.cols(), 0);
+  return lu.kernel();
+}
+
 }  // namespace
 
 Conversion::Conversion(const Model& model, Atlas atlas, const std::string& set)
@@ -77,7 +103,39 @@ std::vector<double> Conversion::operator()(std::vector<double> state) const {
   return state;
 }
 
-std::vector<double> Conversion::apply(const Step& step, const std::vector<double>& state) const {
+ConvertedState Conversion::assessed(std::vector<double> state) const {
+  const auto size = static_cast<Eigen::Index>(state.size());
+  Eigen::MatrixXd total = Eigen::MatrixXd::Identity(size, size);
+  Eigen::MatrixXd open(size, 0);  // directions that are not determined, as columns
+  for (const Step& step : steps_) {
+    const Branch* used = nullptr;
+    std::vector<double> next = apply(step, state, &used);
+    const Eigen::MatrixXd slopes = jacobian_at(used->values, state);
+    total = slopes * total;
+    open = slopes * open;
+    if (step.back) {
+      const Eigen::MatrixXd forgotten = kernel_of(jacobian_at(*step.back, next));
+      Eigen::MatrixXd both(open.rows(), open.cols() + forgotten.cols());
+      both << open, forgotten;
+      open = both;
+    }
+    state = std::move(next);
+  }
+  ConvertedState result{.state = std::move(state), .undetermined = {}};
+  result.growth = total.cwiseAbs().rowwise().sum().maxCoeff();
+  // In units of each column, so that rounding makes nothing of nothing.
+  constexpr double kRounding = 1e-9;
+  for (Eigen::Index i = 0; i < open.rows(); ++i)
+    for (Eigen::Index k = 0; k < open.cols(); ++k)
+      if (std::abs(open(i, k)) > kRounding * open.col(k).cwiseAbs().maxCoeff()) {
+        result.undetermined.push_back(names_[static_cast<std::size_t>(i)]);
+        break;
+      }
+  return result;
+}
+
+std::vector<double> Conversion::apply(const Step& step, const std::vector<double>& state,
+                                      const Branch** used) const {
   std::string why = "its expressions have no value there";
   for (const Branch& branch : step.branches) {
     try {
@@ -103,6 +161,7 @@ std::vector<double> Conversion::apply(const Step& step, const std::vector<double
           continue;
         }
       }
+      if (used) *used = &branch;
       return result;
     } catch (const std::domain_error&) {
     }

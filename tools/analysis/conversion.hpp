@@ -10,6 +10,18 @@
 
 namespace casimir {
 
+/// What other variables say of a state.
+struct ConvertedState {
+  std::vector<double> state;
+  /// The largest sum of absolute derivatives of a new variable by the old ones: about so much
+  /// larger is the error of the new ones.
+  double growth = 1;
+  /// New variables that the old ones do not determine, since the map from the new ones to the old
+  /// ones forgets them, as (M, g) the precession of a top: theirs is one value of many, and what
+  /// comes of a motion is no solution in the new variables.
+  std::vector<std::string> undetermined;
+};
+
 /// States of a case in other variables, in double.
 class Conversion {
  public:
@@ -27,6 +39,8 @@ class Conversion {
   /// \throws SingularPoint  where the variables are singular, or the state has no image: a state
   ///                        that does not come back when it is mapped back is refused
   std::vector<double> operator()(std::vector<double> state) const;
+  /// The same with what is to be said of it, by the derivatives of the maps there.
+  ConvertedState assessed(std::vector<double> state) const;
 
   /// The initial state of a scene, exactly.
   /// \throws SingularPoint
@@ -44,7 +58,9 @@ class Conversion {
     std::vector<Assumption> there_domain;
     std::optional<Program> back;  ///< of an inverse: the map
   };
-  std::vector<double> apply(const Step& step, const std::vector<double>& state) const;
+  /// \param used  the branch that was taken
+  std::vector<double> apply(const Step& step, const std::vector<double>& state,
+                            const Branch** used = nullptr) const;
 
   Limits limits_;
   Atlas atlas_;

@@ -72,8 +72,30 @@ class ComputedAnswer {
   /// \throws SingularPoint  with the time
   std::vector<double> operator()(double t, const std::vector<double>& state) const {
     if (!conversion_) return state;
+    return at(t, [&] { return (*conversion_)(state); });
+  }
+
+  /// What is said of the end of a run is about these variables. \return  warnings
+  std::vector<std::string> judge(AssessedRun& judged) const {
+    if (!conversion_) return {};
+    const Trajectory& trajectory = judged.trajectory;
+    const ConvertedState end =
+        at(trajectory.time, [&] { return conversion_->assessed(trajectory.state); });
+    judged.trust.error_estimate *= end.growth;
+    judged.trust.input_rounding *= end.growth;
+    if (end.undetermined.empty()) return {};
+    return {fmt::format(
+        "{}: not determined by the variables that were integrated; each state has one value of "
+        "many, and from state to state these are no motion: --in integrates in these variables",
+        fmt::join(end.undetermined, ", "))};
+  }
+
+ private:
+  /// Where the variables are singular, the time is said. \throws SingularPoint
+  template <class Compute>
+  static auto at(double t, const Compute& compute) -> decltype(compute()) {
     try {
-      return (*conversion_)(state);
+      return compute();
     } catch (const SingularPoint& problem) {
       throw SingularPoint(
           fmt::format("at t = {}: {}\n  hint: without --as the run itself can be had",
@@ -81,7 +103,6 @@ class ComputedAnswer {
     }
   }
 
- private:
   std::vector<std::string> names_;
   std::optional<Conversion> conversion_;
 };
@@ -343,8 +364,10 @@ int integrate_case(const IntegrateArguments& options) {
   if (!options.output.empty())
     how.sample_every =
         options.every > 0 ? options.every : std::abs(settings_for(how.run, run).duration) / 1000;
-  const AssessedRun judged = integrate_assessed(model, run, how);
-  const RunWords words = words_of(judged, interrupted);
+  AssessedRun judged = integrate_assessed(model, run, how);
+  const std::vector<std::string> of_variables = answer.judge(judged);
+  RunWords words = words_of(judged, interrupted);
+  words.warnings.insert(words.warnings.begin(), of_variables.begin(), of_variables.end());
   if (!options.output.empty())
     write_samples(options.output, run.specialisation, answer, judged.trajectory);
   if (options.common.json) {

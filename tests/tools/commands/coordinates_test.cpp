@@ -55,6 +55,45 @@ TEST(Coordinates, ClaimsHoldInOtherVariables) {
   EXPECT_EQ(run({"verify", "kovalevskaya", "--in", "quaternions"}).status, 0);
 }
 
+/// (M, g) say nothing of the precession: each state has one for itself, which is no motion.
+TEST(Coordinates, WhatTheOldVariablesDoNotDetermineIsSaid) {
+  const auto warning = [](const char* name, const char* set) {
+    const Json json = run({"integrate", name, "--as", set, "--duration", "2", "--json"}).json();
+    for (const Json& one : json.at("warnings"))
+      if (const std::string text = one; text.find("not determined") != std::string::npos)
+        return text.substr(0, text.find(':'));
+    return std::string();
+  };
+  EXPECT_EQ(warning("kovalevskaya", "euler-angles"), "psi");
+  EXPECT_EQ(warning("kovalevskaya", "andoyer"), "h");
+  EXPECT_NE(warning("kovalevskaya", "quaternions").find("lam0"), std::string::npos);
+  EXPECT_EQ(warning("direction-cosines", "euler-angles"), "");
+  EXPECT_EQ(warning("euler-angles", "direction-cosines"), "");
+}
+
+/// Near the vertical, angles are worse known than the state by as much as the derivatives are
+/// large.
+TEST(Coordinates, TheErrorIsThatOfTheNewVariables) {
+  const Folder folder;
+  const std::string file = folder.write("near.toml", R"toml(
+title = "Near the vertical"
+hamiltonian = "(M1^2 + M2^2 + M3^2/2)/2"
+[phase_space]
+variables = ["M1", "M2", "M3", "g1", "g2", "g3"]
+algebra = "e(3)"
+[[scene]]
+name = "default"
+initial = { M1 = "1", M2 = "0", M3 = "10^(-8)", g1 = "0", g2 = "sin(10^(-7)-50)", g3 = "cos(10^(-7)-50)" }
+duration = "50"
+)toml");
+  const auto error = [&](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"integrate", file, "--method", "dop853", "--tolerance", "1e-12", "--json"});
+    return run(more).json().at("trust").at("error_estimate").get<double>();
+  };
+  EXPECT_GT(error({"--as", "euler-angles"}), 1e5 * error({}));
+}
+
 TEST(Coordinates, TheVerticalAxisIsRefusedInEulerAngles) {
   const Folder folder;
   const std::string file = folder.write("upright.toml", R"toml(
