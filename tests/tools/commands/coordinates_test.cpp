@@ -89,7 +89,7 @@ duration = "50"
   const auto error = [&](std::vector<std::string> more) {
     more.insert(more.begin(),
                 {"integrate", file, "--method", "dop853", "--tolerance", "1e-12", "--json"});
-    return run(more).json().at("trust").at("error_estimate").get<double>();
+    return std::stod(run(more).json().at("trust").at("error_estimate").get<std::string>());
   };
   EXPECT_GT(error({"--as", "euler-angles"}), 1e5 * error({}));
 }

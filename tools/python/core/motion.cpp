@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/analysis/solve.hpp"
 #include "tools/python/core/bindings.hpp"
