@@ -31,6 +31,18 @@ initial = { a = "1/2", b = "-1/3", c = "0", d = "1" }
 duration = "10"
 """
 
+# One step over it would miss it.
+BUMP = """title = "A bump"
+[phase_space]
+variables = ["x", "y"]
+[equations]
+x = "exp(-10^4*(x-1)^2) + 1/10"
+y = "0"
+[[scene]]
+name = "default"
+initial = { x = "0", y = "1" }
+duration = "30"
+"""
 BLOWS_UP = """
 [phase_space]
 variables = ["x"]
@@ -185,6 +197,15 @@ class LivePage(unittest.TestCase):
             words = browser.value("document.getElementById('live-words').textContent")
             self.assertRegex(words, r"^Stopped at t = 0\.2(5|49\d*), before the end")
             self.assertNotIn("believed", words)
+            self.expect_quiet(browser)
+
+    def test_it_sees_what_its_own_steps_pass_over(self):
+        case = self.case("bump", BUMP)
+        with Browser() as browser:
+            browser.open(self.report(case))
+            self.end_of(browser)
+            words = browser.value("document.getElementById('live-words').textContent")
+            self.assertRegex(words, r" steps\. [0-2] digits of the largest state stay the same")
             self.expect_quiet(browser)
 
     def test_it_works_under_a_strict_policy(self):

@@ -116,9 +116,12 @@ function integrator() {
 
   /** One orbit, step by step. */
   class Orbit {
-    constructor(system, x, order, backward = false) {
+    /** `longest`: no step is longer, in time, and the equations are looked at within each, too. */
+    constructor(system, x, order, backward = false, longest = Infinity) {
       this.system = system;
       this.order = order;
+      this.longest = longest;
+      this.most = MOST_STEPS;
       this.x = Float64Array.from(x);
       this.lost = new Float64Array(system.n);  // by rounding, of the states
       this.t = 0;
@@ -199,7 +202,7 @@ function integrator() {
       if (!short)
         for (const at of this.system.kinks)
           if (changes(bernstein(this.polynomial(at, h))) > 0) return false;
-      if (this.system.compared) {
+      if (this.system.compared || this.longest < Infinity) {
         this.place = (this.place + GOLDEN) % 1;
         if (!this.agreesAt(h * (0.1 + 0.8 * this.place), h)) return false;
       }
@@ -211,7 +214,7 @@ function integrator() {
     step(end) {
       const {system} = this;
       const least = () => SHORTEST * Math.max(Math.abs(this.t), 1e-290);
-      if (++this.steps > MOST_STEPS) return 'it takes too many steps';
+      if (++this.steps > this.most) return 'it takes too many steps';
       for (;;) {
         system.expand(this.t, this.x, this.unit, this.order);
         const natural = this.length();
@@ -221,7 +224,9 @@ function integrator() {
           continue;
         }
         const left = (end - this.t) / this.unit;
-        let h = Math.min(natural, left);
+        // Where there is a longest step, what would do is shortened as well.
+        const short = this.longest < Infinity;
+        let h = Math.min(short ? natural / 2 : natural, left, this.longest / Math.abs(this.unit));
         this.last = h === left;
         while (!this.holds(h, natural)) {
           h /= 2;
@@ -274,16 +279,19 @@ function integrator() {
     return apart === 0 ? 16 : Math.max(0, -Math.log10(apart / size));
   }
 
-  /** The end state of a run that differs in its rounding: other steps, or the last bit of the data. */
-  function otherEnd(system, task, order, shake) {
+  /** The end state of a run that differs in its rounding: other steps, or the last bit of the data.
+      Null where it does not come to the end. */
+  function otherEnd(system, task, {order = system.order, shake = false, longest = Infinity}) {
     const shaken = list => list.map((x, i) => x * (1 + (shake ? (i % 2 ? -1 : 1) * 2 ** -52 : 0)));
     system.prepare(shaken(task.parameters));
-    const orbit = new Orbit(system, shaken(task.state), order, task.duration < 0);
+    const orbit = new Orbit(system, shaken(task.state), order, task.duration < 0, longest);
+    orbit.most = 3 * MOST_STEPS;
     const why = run(orbit, task.duration);
     return why ? null : orbit.x;
   }
 
-  /** The motion: samples of its first part, its end, and how far that is to be believed. */
+  /** The motion: samples of its first part, its end, and how many digits of that other runs have as
+      well; null where one of these does not come to the end. */
   function motion(system, task) {
     const PARTS = 10, SHOWN = 160;  // samples of a step, steps
     const order = system.order;
@@ -311,10 +319,12 @@ function integrator() {
     });
     if (!shown) show();
     const end = orbit.x;
-    let digits = 0;
+    let digits = null;
     if (!why) {
-      const others = [otherEnd(system, task, order - 4, false), otherEnd(system, task, order, true)];
-      digits = Math.floor(Math.min(15, ...others.map(x => x ? commonDigits(end, x) : 0)));
+      const others = [otherEnd(system, task, {order: order - 4}), otherEnd(system, task, {shake: true}),
+        otherEnd(system, task, {longest: Math.abs(task.duration) / 200})];
+      if (others.every(x => x))
+        digits = Math.floor(Math.min(15, ...others.map(x => commonDigits(end, x))));
     }
     return {first: Array.from(first), change: Array.from(change), why, digits,
       t: orbit.t, state: Array.from(end), steps: orbit.steps};

@@ -154,17 +154,23 @@ class LivePage {
     return list;
   }
 
+  /** What three more runs say: with series of a lower order, with shorter steps, and with the last
+      bit of the data changed. What all runs pass over, or lose, alike they do not tell. */
+  digitsInWords(digits) {
+    if (digits === null) return 'How many digits of it are right is not known: with other steps, or the last bit of the data changed, a run does not come to the end.';
+    if (digits === 0) return 'Nothing of the end state is to be believed: with other steps, or the last bit of the data changed, it is another one.';
+    return `${digits} digits of the largest state stay the same with other steps, and with the last bit of the data changed. What is shorter than all steps, or what rounding takes from all runs alike, that does not tell: casimir integrate looks for both.`;
+  }
+
   tell(result) {
     const list = this.warnings(result.first);
     if (result.why) {
       list.push(`Stopped at t = ${shortNumber(result.t)}, before the end: ${result.why}. What is shown is the motion up to there.`);
     } else {
       list.push(`t = ${shortNumber(result.t)} in ${result.steps} steps.`);
-      list.push(result.digits > 0
-        ? `${result.digits} digits of the largest state are to be believed: so many do not change with other steps, or with the last bit of the data.`
-        : 'Nothing of the end state is to be believed: with other steps, or the last bit of the data changed, it is another one.');
+      list.push(this.digitsInWords(result.digits));
     }
-    this.words.className = result.why || result.digits < 3 || list.length > 2 ? 'notes' : '';
+    this.words.className = result.why || result.digits === null || result.digits < 3 || list.length > 2 ? 'notes' : '';
     this.say(list.join(' '));
   }
 
