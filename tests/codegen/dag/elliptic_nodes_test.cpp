@@ -62,7 +62,8 @@ TEST(EllipticNodes, OfJacobiAreThoseOfBoost) {
     }
 }
 
-/// With its derivative, whose factors are numbers for every type of generated code.
+/// With its derivative. The smallest factors of that have the squares of what those of the function
+/// have: too small for a float.
 TEST(EllipticNodes, OfAModulusThatIsANumberAreThoseOfBoostAndHaveDerivatives) {
   const GiNaC::symbol x("x");
   std::vector<GiNaC::ex> moduli{GiNaC::sqrt(GiNaC::ex(2)) / 3, GiNaC::numeric(0),
@@ -76,14 +77,15 @@ TEST(EllipticNodes, OfAModulusThatIsANumberAreThoseOfBoostAndHaveDerivatives) {
     for (const double u : {-3.7, 0.2, 2.9}) {
       double cn = 0, dn = 0;
       const double modulus = GiNaC::ex_to<GiNaC::numeric>(k.evalf()).to_double();
-      const double sn = boost::math::jacobi_elliptic(modulus, u, &cn, &dn);
+      const double sn = boost::math::jacobi_elliptic(std::abs(modulus), u, &cn, &dn);
       const std::string where = std::to_string(u) + " " + std::to_string(modulus);
       expect_near(evaluate(program, std::vector<double>{u}).front(), sn, where);
       expect_near(evaluate(slope.program, std::vector<double>{u}).front(), cn * dn, where);
     }
-    for (const Program* own : {&program, &slope.program})
-      for (const cln::cl_RA& constant : own->constants)
-        EXPECT_NO_THROW(codegen::nearest<float>(constant)) << k;
+    for (const cln::cl_RA& constant : program.constants)
+      EXPECT_NO_THROW(codegen::nearest<float>(constant)) << k;
+    for (const cln::cl_RA& constant : slope.program.constants)
+      EXPECT_NO_THROW(codegen::nearest<double>(constant)) << k;
   }
 }
 
