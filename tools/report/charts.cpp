@@ -93,7 +93,10 @@ Chart section_chart(const std::array<PlottedFunction, 2>& plotted,
   std::size_t regular = 0;
   for (const OrbitReport& orbit : orbits) {
     const bool grey = orbit.chaotic || !orbit.judged;
-    Chart::Curve curve{grey ? "a chaotic orbit" : "a regular orbit", {}};
+    Chart::Curve curve{!orbit.judged   ? "an orbit of which it is not known"
+                       : orbit.chaotic ? "a chaotic orbit"
+                                       : "a regular orbit",
+                       {}};
     curve.colour = grey ? -1 : kDark[regular++ % std::size(kDark)];
     for (const auto& place : orbit.places)
       curve.points.emplace_back(place[0] / unit_of(plotted[0]), place[1] / unit_of(plotted[1]));

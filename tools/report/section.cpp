@@ -2,6 +2,8 @@
 // level of the scene.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/analysis/section/domain_orbits.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/report/charts.hpp"
@@ -9,6 +11,23 @@
 #include "tools/section/request.hpp"
 
 namespace casimir::tools {
+namespace {
+
+/// What is grey in the picture of these orbits.
+std::string words_on_grey(const std::vector<OrbitReport>& orbits) {
+  const auto unknown = std::ranges::count(orbits, false, &OrbitReport::judged);
+  const bool chaotic = std::ranges::any_of(
+      orbits, [](const OrbitReport& orbit) { return orbit.judged && orbit.chaotic; });
+  std::string words;
+  if (chaotic) words += " Chaotic orbits are grey.";
+  if (unknown > 0)
+    words += fmt::format(" Of {}, too short or running away, it is not known: {} grey.",
+                         unknown == 1 ? "one orbit" : fmt::format("{} orbits", unknown),
+                         chaotic ? "these, too, are" : "these are");
+  return words;
+}
+
+}  // namespace
 
 void cut_section(const CaseFile& file, const Model& model, const Scene& scene, Pictures& pictures) {
   constexpr std::size_t kOrbits = 24, kPoints = 200;
@@ -23,8 +42,9 @@ void cut_section(const CaseFile& file, const Model& model, const Scene& scene, P
   pictures.section_caption = fmt::format(
       "{} orbits on the level {}, cut where the function of the section is zero and {}; each step "
       "to "
-      "{:g}. Chaotic orbits are grey.",
-      orbits.size(), problem.level_text(), problem.plane.upwards ? "grows" : "falls", kTolerance);
+      "{:g}.{}",
+      orbits.size(), problem.level_text(), problem.plane.upwards ? "grows" : "falls", kTolerance,
+      words_on_grey(orbits));
   pictures.section = chart_svg(chart);
   pictures.thumbnail = thumbnail_svg(chart);
   DrawnSection drawn{problem.plotted,

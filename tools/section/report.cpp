@@ -309,7 +309,8 @@ void print_text(const SectionReport& report) {
       "  every point on its level to {:.1e}\n",
       report.orbits.size() - report.chaotic() - static_cast<std::size_t>(unknown), report.chaotic(),
       closed > 0 ? fmt::format(", {} of the regular ones closed", closed) : "",
-      unknown > 0 ? fmt::format(", {} too short to tell:", unknown) : ":", report.off_level());
+      unknown > 0 ? fmt::format(", {} too short to tell or running away:", unknown) : ":",
+      report.off_level());
   double largest = 0;
   for (const OrbitReport& orbit : report.orbits)
     if (orbit.chaotic) largest = std::max(largest, orbit.exponent);

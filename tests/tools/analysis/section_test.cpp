@@ -53,6 +53,26 @@ TEST(Section, OrbitsOfUncoupledOscillatorsLieOnEllipses) {
   }
 }
 
+/// An oscillator beside a saddle: what grows there is every orbit, and no chaos is in it.
+TEST(Section, OrbitsThatRunAwayAreNotJudged) {
+  const GiNaC::symbol x("x"), y("y"), u("u"), v("v");
+  const Model model =
+      hamiltonian_system("saddle", {x, y}, {u, v}, (u * u + x * x + v * v) / 2 - y * y / 2000);
+  const Scene scene = scene_from(model, {0, GiNaC::numeric(1, 10), GiNaC::numeric(1, 2), 0}, 1);
+  PoincareOptions options;
+  options.request.plane = FunctionText{x, "x"};
+  options.request.pair = {{y, "y"}, {v, "v"}};
+  options.request.energy = 0.25;
+  options.orbits = 6;
+  options.points = 100;
+  const PoincareSection map = section(model, scene, options);
+  ASSERT_FALSE(map.orbits.empty());
+  for (const OrbitReport& orbit : map.orbits) {
+    EXPECT_FALSE(orbit.judged);
+    EXPECT_FALSE(orbit.chaotic);
+  }
+}
+
 /// Rounding moves an n-fold zero of a series by an n-th root of it.
 TEST(Section, MultipleZerosOfAPlaneAreWhereTheFunctionHasThem) {
   const Pair pair(0);

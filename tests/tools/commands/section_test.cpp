@@ -149,6 +149,17 @@ TEST(Section, AnAngleIsAPlaneAtEveryTurnAndPlottedOverOne) {
     }
 }
 
+/// Eight crossings say nothing of Kovalevskaya's top, which is integrable.
+TEST(Section, APictureCallsNothingChaoticThatIsTooShortToTell) {
+  const Folder folder;
+  const Outcome outcome = run_in(
+      folder, {"section", "kovalevskaya", "--points", "8", "--orbits", "4", "--output", "k.svg"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string picture = file_text(folder.path() / "k.svg");
+  EXPECT_EQ(picture.find("chaotic orbits"), std::string::npos);
+  EXPECT_NE(picture.find("not known"), std::string::npos);
+}
+
 TEST(Section, WhatItWritesCanBeItsSeeds) {
   const Folder folder;
   folder.write("case.toml", kHenonHeiles);

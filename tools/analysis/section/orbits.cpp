@@ -168,6 +168,22 @@ bool is_closed(const std::vector<std::array<double, 2>>& places) {
   return false;
 }
 
+/// Whether the crossings run away: at the end they are far beyond all those of the first half. What
+/// grows then is the orbit itself, whatever it does to others.
+bool runs_away(const LevelSet& level, const SectionOrbit& orbit) {
+  const std::size_t n = level.problem().states();
+  const auto size = [&](std::size_t crossing) {
+    double most = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (!level.problem().angles[i])
+        most = std::max(most, std::abs(orbit.states[crossing * n + i]));
+    return most;
+  };
+  double before = 0;
+  for (std::size_t k = 0; k < orbit.size() / 2; ++k) before = std::max(before, size(k));
+  return orbit.size() > 1 && size(orbit.size() - 1) > kEscaped * before;
+}
+
 }  // namespace
 
 void judge_growth(OrbitReport& report) {
@@ -195,6 +211,7 @@ std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult resu
     report.seed = seeds[i];
     check_level(level, report);
     judge_growth(report);
+    if (runs_away(level, report.orbit)) report.judged = report.chaotic = false;
     reports.push_back(std::move(report));
   }
   return reports;
