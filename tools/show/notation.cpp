@@ -7,6 +7,7 @@
 #include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/elliptic.hpp"
 #include "tools/typeset/dag_math.hpp"
+#include "tools/typeset/latex.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -133,6 +134,20 @@ void Notation::name_letters() {
   }
 }
 
+/// Names that would be one on paper, as a1 and a_1: those with a line are set as they are.
+void Notation::tell_names_apart() {
+  std::map<std::string, std::vector<std::string>> alike;
+  for (const GiNaC::symbol& symbol : symbols_) {
+    std::string paper = typeset::latex(on_paper(symbol.get_name()));
+    std::erase(paper, ' ');
+    alike[paper].push_back(symbol.get_name());
+  }
+  for (const auto& [paper, names] : alike)
+    for (const std::string& name : names)
+      if (names.size() > 1 && name.find('_') != std::string::npos)
+        paper_[name] = {typeset::Kind::word, name};
+}
+
 GiNaC::symbol Notation::product_symbol(const std::string& a, const std::string& b) {
   const GiNaC::symbol product("(" + a + ", " + b + ")");
   paper_[product.get_name()] = {
@@ -169,6 +184,7 @@ void Notation::make_dag(const std::vector<Triple>& vectors, std::size_t moving) 
   for (const LaxPair& pair : model_.lax_pairs) {
     if (pair.spectral) add_symbols({*pair.spectral}, 0);
   }
+  tell_names_apart();
   add_arbitrary_functions();
   dag_ = std::make_unique<codegen::Dag>(symbols_, degrees_);
   scalar_products_ = std::make_unique<ScalarProducts>(*dag_, places, pairs);

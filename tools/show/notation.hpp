@@ -64,6 +64,7 @@ class Notation {
 
  private:
   void name_letters();
+  void tell_names_apart();
   void make_dag(const std::vector<Triple>& vectors, std::size_t moving);
   void add_symbols(const std::vector<GiNaC::symbol>& list, int degree);
   void add_arbitrary_functions();

@@ -28,6 +28,22 @@ Math rational_math(const cln::cl_RA& c) {
                     : fraction(integer(cln::numerator(c)), integer(below));
 }
 
+/// Whether its first sign is a digit: beside what stands before it that would be another number.
+bool begins_with_digit(const Math& formula) {
+  if (formula.kind == Kind::scripts) return begins_with_digit(formula.parts[0]);
+  return formula.kind == Kind::number;
+}
+
+/// Factors beside each other, with a dot before digits: 2 . 3^{1/3}.
+Math factors_of(std::vector<Math> factors) {
+  std::vector<Math> dotted;
+  for (Math& factor : factors) {
+    if (!dotted.empty() && begins_with_digit(factor)) dotted.push_back(symbol("cdot"));
+    dotted.push_back(std::move(factor));
+  }
+  return product(std::move(dotted));
+}
+
 class Typesetter {
  public:
   using Names = std::function<Math(const std::string&)>;
@@ -75,12 +91,12 @@ class Typesetter {
           .push_back(power(dag_[f.node], cln::abs(f.exponent)));
     if (below.empty()) {
       if (coefficient != 1) above.insert(above.begin(), rational_math(coefficient));
-      return product(std::move(above));
+      return factors_of(std::move(above));
     }
     const cln::cl_I top = cln::numerator(coefficient), bottom = cln::denominator(coefficient);
     if (top != 1 || above.empty()) above.insert(above.begin(), integer(top));
     if (bottom != 1) below.insert(below.begin(), integer(bottom));
-    return fraction(product(std::move(above)), product(std::move(below)));
+    return fraction(factors_of(std::move(above)), factors_of(std::move(below)));
   }
 
   Math power(const Node& base, const cln::cl_RA& exponent) const {

@@ -57,6 +57,13 @@ std::string bold_text(const Math& vector) {
   return "\\boldsymbol{" + letters + "}";
 }
 
+/// A name: the lines under it are no indices.
+std::string word_text(const std::string& word) {
+  std::string text;
+  for (const char c : word) text += c == '_' ? "\\_" : std::string(1, c);
+  return text;
+}
+
 /// Words as a case has them: what LaTeX would take for a command is left out or escaped.
 std::string prose_text(const std::string& words) {
   std::string text;
@@ -78,7 +85,7 @@ std::string latex(const Math& formula) {
     case Kind::symbol:
       return "\\" + formula.text;
     case Kind::word:
-      return "\\mathrm{" + formula.text + "}";
+      return "\\mathrm{" + word_text(formula.text) + "}";
     case Kind::number:
       return formula.text;
     case Kind::prose:

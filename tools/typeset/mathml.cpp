@@ -195,6 +195,7 @@ Pieces pieces_of(const Math& formula) {
     case Kind::letter:
       return letters(formula.text);
     case Kind::symbol:
+      if (formula.text == "cdot") return {{"<mo>⋅</mo>", 1}};
       return {{element("mi", letter_of(formula.text)), 1}};
     case Kind::word:
       return {{"<mi mathvariant=\"normal\">" + html::text(formula.text) + "</mi>",

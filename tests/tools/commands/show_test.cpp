@@ -159,5 +159,18 @@ TEST(Show, LaxPairsAreClaimsToo) {
   EXPECT_FALSE(has(shown(text), "Lax"));
 }
 
+/// a1 and a_1 may stand side by side in a case.
+TEST(Show, NamesThatWouldBeOneOnPaperAreToldApart) {
+  const Folder folder;
+  folder.write("alike.toml",
+               "title = \"t\"\n[phase_space]\nvariables = [\"a1\", \"a_1\"]\n[equations]\n"
+               "a1 = \"2*a_1\"\na_1 = \"-a1\"\n");
+  const Outcome outcome = run_in(folder, {"show", "./alike.toml", "--format", "latex"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\\mathrm{a\\_1}"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("2 \\mathrm{a\\_1}"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("-a_{1}"), std::string::npos) << outcome.out;
+}
+
 }  // namespace
 }  // namespace casimir::test
