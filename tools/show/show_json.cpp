@@ -92,6 +92,7 @@ Json document(const Model& model, const std::function<void(Json&, Plain&)>& add_
   Plain plain(model);
   if (model.poisson) plain.add_bracket(json);
   add_motion(json, plain);
+  if (!model.constraints.empty()) plain.add_functions(json, "constraints", model.constraints);
   plain.add_functions(json, "casimirs", model.casimirs);
   plain.add_functions(json, "integrals", model.integrals);
   plain.add_levels(json, "conditional", model.conditionals);

@@ -239,6 +239,10 @@ void Writer::add_claims(SystemView& view) const {
     formula.on = expressions(claim.on);
     return formula;
   };
+  if (!model_.constraints.empty()) view.claims.push_back({"constraints", {}});
+  for (const NamedExpression& c : model_.constraints)
+    view.claims.back().formulas.push_back(
+        {notation_.expression(c.value), {"0", typeset::number("0")}});
   add(ClaimKind::casimir, model_.casimirs, function);
   add(ClaimKind::integral, model_.integrals, function);
   add(ClaimKind::conditional, model_.conditionals, level);

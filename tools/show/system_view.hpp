@@ -19,7 +19,7 @@ struct Formula {
   std::vector<Written> on = {};
 };
 
-/// Claims of one kind, or matrices that belong together.
+/// Claims of one kind, constraints, or matrices that belong together.
 struct FormulaGroup {
   std::string title;
   std::vector<Formula> formulas;
