@@ -88,6 +88,38 @@ TEST(Report, TextOfStrangersIsNoMarkupAndWhatIsRefutedIsShown) {
   EXPECT_LE(seen.found.at("width"), view.width);
 }
 
+/// What holds where a != 0 is not said to hold everywhere: by the page, its JSON, or the survey.
+TEST(Report, WhatAVerdictDependsOnStandsWhereTheVerdictDoes) {
+  const Folder folder;
+  folder.write("free.toml", R"toml(title = "Free"
+hamiltonian = "(p1^2 + p2^2)/2"
+integrable = true
+[phase_space]
+variables = ["q1", "q2", "p1", "p2"]
+canonical = true
+[parameters]
+a = {}
+[integrals]
+F = "a*p2"
+G = "sqrt(a)^2*p2"
+[[scene]]
+name = "default"
+parameters = { a = "1" }
+initial = { q1 = "0", q2 = "0", p1 = "1", p2 = "1" }
+duration = "1"
+)toml");
+  const Outcome outcome =
+      run_in(folder, {"report", "./free.toml", "--budget", "0", "--output", "p.html", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.json().at("where"), nlohmann::json::array({"a != 0"}));
+  const std::string page = file_text(folder.path() / "p.html");
+  const std::string badge = page.substr(page.find("class=\"badge"), 120);
+  EXPECT_NE(badge.find("where a != 0"), std::string::npos) << badge;
+  EXPECT_NE(page.find("where a &gt;= 0"), std::string::npos);
+  const Outcome survey = run_in(folder, {"survey", "./free.toml"});
+  EXPECT_NE(survey.out.find("free is proved where a != 0"), std::string::npos) << survey.out;
+}
+
 TEST(Report, OfAllCasesHasAnIndexWhoseLinksLead) {
   const Folder folder, cases;
   const std::string oscillator =
