@@ -282,10 +282,33 @@ Claim poisson_claim(const MapModel& map) {
 
 namespace {
 
+/// What the shift on tori asks for where several leaves have the same values of the Casimir
+/// functions.
+constexpr const char* kKeepsLeaf = "the map keeps the symplectic leaf";
+
+bool has_variables(const GiNaC::ex& e, const Model& model) {
+  return std::ranges::any_of(model.variables, [&](const GiNaC::symbol& x) { return e.has(x); });
+}
+
+/// Whether each common level of the Casimir functions is one leaf: the bracket is constant and they
+/// are linear, so that it is a plane with one rank. Else it may have several parts: the map
+/// c -> -c keeps c^2, c -> c + 2 Pi keeps sin(c), and {q, p} = q has the leaves q > 0 and q < 0.
+bool levels_are_leaves(const Model& model) {
+  const PoissonStructure& bracket = *model.poisson;
+  for (std::size_t i = 0; i < bracket.dimension(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (has_variables(bracket(i, j).expand(), model)) return false;
+  return std::ranges::all_of(model.casimirs, [&](const NamedExpression& f) {
+    return std::ranges::all_of(model.variables, [&](const GiNaC::symbol& x) {
+      return !has_variables(f.value.diff(x).expand(), model);
+    });
+  });
+}
+
 /// Hypothesis of the count on one leaf: the map keeps the leaves. A Poisson map may exchange them;
 /// one that keeps as many independent Casimir functions as the rank falls short of the dimension
-/// does not, where these tell the leaves apart. (That they are integrals of the map is asked for
-/// elsewhere.)
+/// does not, where these tell the leaves apart: `levels_are_leaves`, or a condition. (That they are
+/// integrals of the map is asked for elsewhere.)
 std::string why_leaves_may_move(Prover& prover, const MapModel& map) {
   const auto leaf = bracket_rank(prover);
   if (!leaf || !leaf->exact || !leaf->uneven.empty()) return "the rank of the bracket is not known";
@@ -329,6 +352,7 @@ std::vector<Claim> liouville_claims(const MapModel& map) {
       proof.reason = why_leaves_may_move(prover, map);
       if (!proof.reason.empty()) return;
       count(prover, proof);
+      if (!levels_are_leaves(map.base)) conditions.emplace_back(kKeepsLeaf);
       if (proof.verdict == Verdict::proved) add_conditions(proof, conditions);
     };
   }

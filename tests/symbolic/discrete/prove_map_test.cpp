@@ -190,6 +190,24 @@ TEST(ProveMap, AFunctionWithAPoleWhereverTheMapLeadsIsUndecided) {
   EXPECT_NO_THROW(discrete::search_map(map_of(folded), 2));
 }
 
+/// c -> -c keeps c^2, c -> c + 2 Pi keeps sin(c): no orbit stays on its leaf.
+TEST(ProveMap, LiouvilleDependsOnLeavesThatTheCasimirFunctionsDoNotTellApart) {
+  const auto liouville = [](const std::string& c, const std::string& casimir) {
+    const MapModel map = map_of(
+        "[phase_space]\nvariables = [\"q\", \"p\", \"c\"]\n[phase_space.brackets]\n\"q,p\" = "
+        "\"1\"\n[map]\nq = \"q + p\"\np = \"p\"\nc = \"" +
+        c + "\"\n[casimirs]\nC = \"" + casimir + "\"\n[integrals]\nJ = \"p\"\n");
+    return proof_of(map, ClaimKind::liouville);
+  };
+  for (const auto& [c, casimir] : {std::pair{"-c", "c^2"}, {"c + 2*Pi", "sin(c)"}}) {
+    const Proof proof = liouville(c, casimir);
+    EXPECT_TRUE(proof.verdict != Verdict::proved || !proof.where.empty()) << casimir;
+  }
+  const Proof plain = liouville("c", "2*c + 1");
+  EXPECT_EQ(plain.verdict, Verdict::proved) << plain.reason;
+  EXPECT_TRUE(plain.where.empty());
+}
+
 TEST(ProveMap, LiouvilleNeedsAPoissonMapAndItsIntegrals) {
   const std::string file =
       kPhaseSpaceOfPlane +

@@ -65,6 +65,36 @@ TEST(EnsembleFile, MembersObeyTheAssumptionsAndLieOnTheConstraints) {
             0);
 }
 
+/// A level of small terms is as sharp as any; the rounding of a direction is no fault.
+TEST(EnsembleFile, ConstraintsAreHeldBesideTheirTerms) {
+  const Folder folder;
+  const auto status = [&](const std::string& constraint, const char* initial, const char* file) {
+    write(folder, "level.toml",
+          "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\nconstraints = [\"" +
+              constraint +
+              "\"]\n[equations]\nx = \"-y*(x^2+y^2)\"\ny = \"x*(x^2+y^2)\"\n[[scene]]\nname = "
+              "\"default\"\ninitial = " +
+              initial + "\nduration = \"1\"\n");
+    return members(folder, file, {"integrate", "./level.toml"}).status;
+  };
+  const char* const small = "{ x = \"10^(-7)\", y = \"0\" }";
+  EXPECT_EQ(status("x^2 + y^2 - 10^(-14)", small, "x,y\n1e-7,0\n0,1e-7\n"), 0);
+  EXPECT_EQ(status("x^2 + y^2 - 10^(-14)", small, "x,y\n1e-7,0\n3e-7,0\n"), 2);
+  const char* const unit = "{ x = \"1\", y = \"0\" }";
+  EXPECT_EQ(status("x^2 + y^2 - 1", unit, "x,y\n0.28366218546322625,-0.9589242746631385\n"), 0);
+}
+
+/// The check repeats the motion of the member, not that of the scene.
+TEST(EnsembleFile, MembersOfAClosedFormAreCheckedFromTheirOwnStarts) {
+  const Folder folder;
+  const auto json =
+      members(folder, "M1,M2\n3/5,4/5\n1,0\n",
+              {"integrate", "euler", "--method", "exact", "--duration", "3", "--json"})
+          .json();
+  ASSERT_EQ(json.at("checked").size(), 2U);
+  for (const auto& one : json.at("checked")) EXPECT_LT(one.at("error_estimate"), 1e-10);
+}
+
 TEST(EnsembleFile, TableHasALineForEachMember) {
   const Folder folder;
   const Outcome outcome =

@@ -224,5 +224,35 @@ TEST(Auto, GivesStiffScenesToRadauAndSmoothOnesToTaylorSeries) {
   EXPECT_EQ(fast.json.at("method"), "taylor");
 }
 
+/// A function that is no integral changes however well the state is known.
+TEST(Trust, ARefutedIntegralSaysNothingOfTheState) {
+  const Folder folder;
+  const auto error = [&](const std::string& more) {
+    folder.write("o.toml",
+                 "title = \"t\"\nhamiltonian = \"(p^2+q^2)/2\"\n[phase_space]\nvariables = [\"q\", "
+                 "\"p\"]\ncanonical = true\n" +
+                     more +
+                     "[[scene]]\nname = \"default\"\ninitial = { q = \"1\", p = \"0\" }\nduration "
+                     "= \"100\"\n");
+    const auto json = run_in(folder, {"integrate", "./o.toml", "--json"}).json();
+    return std::stod(json.at("trust").at("error_estimate").get<std::string>());
+  };
+  EXPECT_LT(error("[integrals]\nI = \"log(q + 3)\"\n"), 1e-12);
+  EXPECT_LT(error(""), 1e-12);
+}
+
+/// u is zero at the start and stays a thousand million times smaller than x.
+TEST(Trust, ASmallStateThatBeginsAtZeroIsNamedToo) {
+  const Folder folder;
+  folder.write(
+      "small.toml",
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\", \"u\", \"w\"]\n[equations]\n"
+      "x = \"y\"\ny = \"-x\"\nu = \"10^(-11)*x - 20*u\"\nw = \"-w*x\"\n[[scene]]\nname = "
+      "\"default\"\ninitial = { x = \"1\", y = \"0\", u = \"0\", w = \"0\" }\nduration = "
+      "\"20\"\n");
+  const Outcome outcome = run_in(folder, {"integrate", "./small.toml"});
+  EXPECT_NE(outcome.out.find("says nothing of u:"), std::string::npos) << outcome.out;
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -230,10 +230,13 @@ std::vector<double> sizes_of(const Trajectory& trajectory) {
 
 std::vector<std::size_t> smaller_states(const Trajectory& trajectory,
                                         const std::vector<double>& initial) {
-  const double least = kLeastSize * std::ranges::max(trajectory.sizes);
+  constexpr double kRounding = 1e-14;  // what is zero all along may become so large
+  const double largest = std::ranges::max(trajectory.sizes), least = kLeastSize * largest;
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < initial.size(); ++i)
-    if (initial[i] != 0 && trajectory.sizes[i] < least) result.push_back(i);
+    if (trajectory.sizes[i] < least &&
+        (initial[i] != 0 || trajectory.sizes[i] > kRounding * largest))
+      result.push_back(i);
   return result;
 }
 

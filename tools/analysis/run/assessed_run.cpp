@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -233,12 +234,20 @@ class Judge {
     Trajectory& trajectory = result_.trajectory;
     if (!result_.compiled->warning.empty()) doubts.push_back(result_.compiled->warning);
     if (result_.later && result_.later->missing) doubts.emplace_back(kInterpretedWarning);
-    for (std::string& doubt : check_drift(model_, run_.specialisation.invariant_names, trajectory))
-      doubts.push_back(std::move(doubt));
+    DriftDoubts drifts = check_drift(model_, run_.specialisation.invariant_names, trajectory);
+    std::ranges::move(drifts.sentences, std::back_inserter(doubts));
     if (trajectory.status == Status::ok) doubt_small_states();
-    result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings, trajectory);
+    result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings,
+                           drifts.which.empty() ? trajectory : without_drifts(drifts.which));
     if (trajectory.status != Status::ok || singular_->crossed() || costs_digits())
       result_.near_singular = singular_->finding();
+  }
+
+  /// A function that is no integral changes however well the state is known.
+  Trajectory without_drifts(const std::vector<std::size_t>& which) const {
+    Trajectory trajectory = result_.trajectory;
+    for (const std::size_t i : which) trajectory.invariants[i].drift = 0;
+    return trajectory;
   }
 
   void doubt_small_states() {

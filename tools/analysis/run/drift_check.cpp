@@ -39,15 +39,16 @@ Verdict verdict_on(const Model& model, const std::string& invariant) {
   return proof_of(model, invariant).verdict;
 }
 
-std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
-                                     Trajectory& trajectory) {
-  std::vector<std::string> doubts;
+DriftDoubts check_drift(const Model& model, const std::vector<std::string>& names,
+                        Trajectory& trajectory) {
+  DriftDoubts doubts;
   for (std::size_t i = 0; i < trajectory.invariants.size(); ++i) {
     const InvariantRecord& record = trajectory.invariants[i];
     if (record.drift <= record.allowed) continue;
     const Verdict verdict = verdict_on(model, names[i]);
     if (verdict != Verdict::proved) {
-      doubts.push_back(
+      doubts.which.push_back(i);
+      doubts.sentences.push_back(
           fmt::format("{} changes by {:.1e} of its size, and it is {} to be an integral", names[i],
                       record.drift, verdict == Verdict::refuted ? "refuted" : "not proved"));
     } else if (trajectory.status == Status::ok) {

@@ -9,13 +9,18 @@
 
 namespace casimir {
 
+/// Invariants that drifted and are not proved to be integrals.
+struct DriftDoubts {
+  std::vector<std::size_t> which;      ///< among those of the trajectory
+  std::vector<std::string> sentences;  ///< one about each
+};
+
 /// Looks at the invariants that drifted by more than the tolerance allows. One that is proved to be
 /// an integral of the case turns an `ok` into `drift_exceeded`; one that is not proves nothing
 /// about the run.
 /// \param names  of the invariants of the trajectory, "H" and those of the file
-/// \return       a sentence about each that is no proved integral
-std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
-                                     Trajectory& trajectory);
+DriftDoubts check_drift(const Model& model, const std::vector<std::string>& names,
+                        Trajectory& trajectory);
 
 /// What can be proved of that invariant of the case, "H" or one of the file, as an integral.
 Proof proof_of(const Model& model, const std::string& invariant);

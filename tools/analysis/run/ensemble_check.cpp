@@ -22,6 +22,18 @@ PreparedScene scene_of(const PreparedScene& run, const Ensemble& ensemble, std::
   own.parameters.assign(p, p + ensemble.parameters);
   own.rounding.assign(own.initial.size(), 0);
   own.parameter_rounding.assign(own.parameters.size(), 0);
+  // The exact start as well, which closed forms begin at.
+  std::vector<double> values = own.initial;
+  values.insert(values.end(), own.parameters.begin(), own.parameters.end());
+  values.push_back(own.duration);
+  Program start;
+  start.output_names = own.specialisation.start.output_names;
+  for (const double value : values) {
+    start.outputs.push_back(static_cast<int>(start.code.size()));
+    start.code.push_back({Op::constant, static_cast<int>(start.constants.size())});
+    start.constants.push_back(exact_number(value));
+  }
+  own.specialisation.start = std::move(start);
   return own;
 }
 

@@ -18,9 +18,10 @@ std::size_t place_among(const std::vector<GiNaC::symbol>& symbols, const std::st
   return static_cast<std::size_t>(found - symbols.begin());
 }
 
+/// Beside the terms of the sum: a level of small terms is as sharp as any.
 bool vanishes(const SizedNumber& x) {
   constexpr long double kRounding = 1e-13L;
-  return std::abs(x.value) <= kRounding * std::max(x.size, 1.0L);
+  return std::abs(x.value) <= kRounding * x.size;
 }
 
 bool holds(const Assumption& a, const SizedNumber& x) {
@@ -41,6 +42,12 @@ PointCheck::PointCheck(const Model& model, const Scene& scene, const Specialisat
   assumptions_ = own.assumptions;
   for (const Assumption& a : assumptions_) functions.push_back(a.difference);
   const std::vector<GiNaC::symbol> symbols = own.symbols();
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    for (const GiNaC::symbol& x : symbols)
+      if (const GiNaC::ex slope = functions[i].diff(x); !slope.is_zero()) {
+        functions.push_back(slope * x);
+        slopes_.push_back(i);
+      }
   program_ = program_of(functions, symbols);
   const auto add = [&](const GiNaC::ex& e) {
     inputs_.push_back(
@@ -60,7 +67,11 @@ std::optional<PointFault> PointCheck::operator()(const std::vector<double>& stat
     inputs_[parameters_[i]] = Arithmetic<SizedNumber>::plain(parameters[i]);
   if (std::ranges::any_of(inputs_, [](const SizedNumber& x) { return !std::isfinite(x.value); }))
     return PointFault{false, "a value is no number"};
-  const std::vector<SizedNumber> values = evaluate(program_, inputs_);
+  std::vector<SizedNumber> values = evaluate(program_, inputs_);
+  // A function is as sharp as the rounding of what it is of: the sine of pi is no zero.
+  const std::size_t own = constraints_.size() + assumptions_.size();
+  for (std::size_t k = 0; k < slopes_.size(); ++k)
+    values[slopes_[k]].size = std::max(values[slopes_[k]].size, std::abs(values[own + k].value));
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     if (!vanishes(values[i]))
       return PointFault{true, fmt::format("the constraint {} is {:.3g} instead of 0",

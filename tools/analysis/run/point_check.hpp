@@ -32,7 +32,9 @@ class PointCheck {
  private:
   std::vector<std::string> constraints_;  ///< their names
   std::vector<Assumption> assumptions_;
-  Program program_;                  ///< their values, in this order
+  /// Their values in this order; then x dc/dx for each constraint c and each x in it.
+  Program program_;
+  std::vector<std::size_t> slopes_;  ///< of which constraint each of these is
   std::vector<SizedNumber> inputs_;  ///< variables and parameters: the scene's, then the point's
   std::vector<std::size_t> states_, parameters_;  ///< where those of the points are among them
 };

@@ -51,24 +51,20 @@ std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int di
   return evaluate(specialisation.start, {}, Arithmetic<cln::cl_F>(digits));
 }
 
-double rounded(const cln::cl_F& value) { return codegen::nearest<double>(cln::rational(value)); }
-
-namespace {
-
-/// Subnormal numbers, too, which CLN has not.
-cln::cl_RA exactly(double number) {
+// Subnormal numbers, too, which CLN has not.
+cln::cl_RA exact_number(double number) {
   constexpr int kBits = std::numeric_limits<double>::digits;
   int exponent = 0;
   const double mantissa = std::ldexp(std::frexp(number, &exponent), kBits);
   return cln::cl_I(static_cast<long>(mantissa)) * cln::expt(cln::cl_RA(2), exponent - kBits);
 }
 
-}  // namespace
+double rounded(const cln::cl_F& value) { return codegen::nearest<double>(cln::rational(value)); }
 
 double remainder(const cln::cl_F& value, double nearest) {
-  const cln::cl_RA left = cln::rational(value) - exactly(nearest);
+  const cln::cl_RA left = cln::rational(value) - exact_number(nearest);
   // Nothing is left that a double could say.
-  if (cln::abs(left) < exactly(std::numeric_limits<double>::denorm_min())) return 0;
+  if (cln::abs(left) < exact_number(std::numeric_limits<double>::denorm_min())) return 0;
   return codegen::nearest<double>(left);
 }
 
