@@ -3,6 +3,7 @@
 #include <ginac/ginac.h>
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -126,6 +127,9 @@ struct Scene {
   std::vector<std::optional<GiNaC::ex>> reference;  ///< empty, or one for each variable
   std::string unusable;   ///< why it cannot be run although it was read; or empty
   bool singular = false;  ///< for that reason: its state has no image in the variables chosen
+  /// What the functions among `parameters` were written with and show no longer, as sqrt(r) of
+  /// sqrt(r)^2: by the name of the parameter, over the arguments in its value.
+  std::map<std::string, std::vector<GiNaC::ex>> lost_of_functions = {};
 };
 
 /// A case file made mathematical. Owns every symbol: GiNaC compares symbols by identity, so no

@@ -98,13 +98,16 @@ class SceneReader {
       for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
         const auto function = function_name(model_.parameters[i].get_name());
         if (function && function->name == given->name)
-          scene.parameters[i] = read_function(*function, text, scene);
+          scene.parameters[i] = read_function(
+              *function, text, scene, scene.lost_of_functions[model_.parameters[i].get_name()]);
       }
     }
   }
 
   /// An expression over the arguments of a function, which hide parameters of the same name.
-  ex read_function(const FunctionName& function, const Text& text, const Scene& scene) const {
+  /// \param lost  what of it does not show
+  ex read_function(const FunctionName& function, const Text& text, const Scene& scene,
+                   std::vector<ex>& lost) const {
     NameTable names(model_.limits);
     for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
       const std::string parameter = model_.parameters[i].get_name();
@@ -116,7 +119,9 @@ class SceneReader {
       arguments.emplace_back(argument);
       names.add(argument, Quantity::symbol(arguments.back()));
     }
-    return given_function(arguments, parse_expression(text, names).value);
+    const Quantity body = parse_expression(text, names);
+    lost = lost_parts(body);
+    return given_function(arguments, body.value);
   }
 
   static Extreme kind_of_extreme(const Text& text) {

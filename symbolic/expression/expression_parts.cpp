@@ -1,9 +1,11 @@
 // The parts of an expression that GiNaC has made something else of: where those have no value, the
 // expression has none.
+#include <algorithm>
 #include <memory>
 #include <unordered_set>
 #include <utility>
 
+#include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 
@@ -46,12 +48,27 @@ class LostInSubstitution {
     const bool is_part = GiNaC::is_a<GiNaC::power>(e) || GiNaC::is_a<GiNaC::function>(e);
     if (is_part || GiNaC::is_a<GiNaC::mul>(e)) {
       const ex now = substituted(e, values_, limits_);
-      if (vanishing_ == VanishingTerms::dropped && now.is_zero()) return;
+      if (vanishing_ == VanishingTerms::dropped && now.is_zero() && is_switched_off(e)) return;
       if (is_part)
         for (const ex& part : visible_parts(now))
           if (!is_ring_power(part) && known_.insert(part).second) lost_.push_back(part);
     }
     for (std::size_t i = 0; i < e.nops(); ++i) visit(e.op(i));
+  }
+
+  /// Whether it is zero by the values alone, wherever it is looked at: a strength of 0, or a
+  /// function that is.
+  bool is_switched_off(const ex& e) const {
+    if (GiNaC::is_exactly_a<GiNaC::function>(e))
+      return as_arbitrary(GiNaC::ex_to<GiNaC::function>(e)).has_value();
+    return GiNaC::is_a<GiNaC::mul>(e) && std::any_of(e.begin(), e.end(), [&](const ex& factor) {
+             return has_only_values(factor) && substituted(factor, values_, limits_).is_zero();
+           });
+  }
+  bool has_only_values(const ex& e) const {
+    return std::all_of(e.preorder_begin(), e.preorder_end(), [&](const ex& part) {
+      return !GiNaC::is_a<GiNaC::symbol>(part) || values_.contains(part);
+    });
   }
 
   const GiNaC::exmap& values_;

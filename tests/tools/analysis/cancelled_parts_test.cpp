@@ -69,6 +69,46 @@ TEST(CancelledParts, OfAScenesParametersAndFunctionsEndAnEnclosureAndARun) {
   }
 }
 
+/// Of H, q(0) = 1 and p(0) = 0.
+Model of_hamiltonian(const std::string& potential, const std::string& more = "",
+                     const std::string& of_scene = "") {
+  return model_of("title = \"t\"\nhamiltonian = \"p^2/2 + " + potential +
+                  "\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n" + more +
+                  "[[scene]]\nname = \"default\"\ninitial = { q = \"1\", p = \"0\" }\n" + of_scene +
+                  "duration = \"4\"\n");
+}
+
+/// In the equations log(q) - log(5*q) leaves nothing, nor does sign(q); q = cos(sqrt(2) t) comes to
+/// 0 at t = 1.1107.
+TEST(CancelledParts, OfAHamiltonianAreThoseThatItsDerivativesLoseToo) {
+  const std::string functions = "[functions]\nU = [\"r\"]\n";
+  const double zero = std::acos(-1.) / std::sqrt(8.);
+  const auto ends_there = [&](const Model& model) {
+    const ValidatedMotion motion = enclosed(model);
+    return motion.run.status == ValidatedStatus::no_enclosure && value(motion.run.end.time) <= zero;
+  };
+  EXPECT_TRUE(ends_there(of_hamiltonian("q^2 + log(5*q) - log(q)")));
+  EXPECT_TRUE(ends_there(of_hamiltonian("q^2 + log(1/q) + log(q)")));
+  EXPECT_TRUE(ends_there(of_hamiltonian("q^2 + sign(q)")));
+  EXPECT_TRUE(ends_there(of_hamiltonian("q^4/q^2")));
+  EXPECT_TRUE(ends_there(of_hamiltonian("U(q)", functions, "functions = { U = \"sqrt(r)^4\" }\n")));
+  EXPECT_TRUE(ends_there(of_hamiltonian("U(q)", functions, "functions = { U = \"r^4/r^2\" }\n")));
+  EXPECT_TRUE(ends_there(of_hamiltonian("q^2*(q/abs(q))^a", "[parameters]\na = {}\n",
+                                        "parameters = { a = \"2\" }\n")));
+  const Model even = of_hamiltonian("q^4/q^2");
+  EXPECT_EQ(solve(even, even.scene("default"), {}).trajectory().status, Status::singularity);
+}
+
+/// What the equations show is noticed without being watched, and has its certificate.
+TEST(CancelledParts, AreNotWhatTheEquationsShow) {
+  for (const char* potential : {"q^2 - log(q)", "q^2 + 1/q", "q^2 + sqrt(q^2 + 1)", "q^2 + abs(q)",
+                                "q^2 + asin(q/2)", "q^2 + 1/sqrt(q)", "q^2 + exp(q) + sin(q)",
+                                "q^2 + atan2(q, 2)", "q^2 + tan(q/4)", "q^(3/2)"}) {
+    const Model model = of_hamiltonian(potential);
+    EXPECT_EQ(unwatched_parts(model, model.scene("default")), "") << potential;
+  }
+}
+
 TEST(CancelledParts, LeaveAnEnclosureAloneWhereTheyHaveValues) {
   const ValidatedMotion motion = enclosed(one_equation("sqrt(x)^2 - 2", "1/2"));
   ASSERT_EQ(motion.run.status, ValidatedStatus::ok) << motion.run.reason;

@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "codegen/program_of.hpp"
+#include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/expression/principal_values.hpp"
+#include "tools/analysis/estimate/shown_parts.hpp"
 
 namespace casimir {
 namespace {
@@ -46,26 +51,87 @@ ex bound(const Model& model, const Scene& scene, const ex& part) {
   }
 }
 
-/// What the equations as they were written show no longer with the numbers and the functions of the
-/// scene in them.
-std::vector<ex> lost_in_scene(const Model& model, const Scene& scene) {
-  std::vector<ex> written;
-  if (model.hamiltonian && model.poisson) {  // the field is derived from these
-    written.push_back(*model.hamiltonian);
-    for (std::size_t i = 0; i < model.poisson->dimension(); ++i)
-      for (std::size_t j = i + 1; j < model.poisson->dimension(); ++j)
-        written.push_back((*model.poisson)(i, j));
-  } else {
-    written = model.field;
+/// Whether a part of an expression may have no value where its own parts have theirs.
+bool may_lack_value(const ex& part) {
+  static const std::set<std::string> kAlways{"exp", "sin", "cos", "sinh", "cosh", "tanh", "atan"};
+  if (GiNaC::is_a<GiNaC::power>(part)) return !part.op(1).info(GiNaC::info_flags::posint);
+  return GiNaC::is_a<GiNaC::function>(part) &&
+         !kAlways.contains(GiNaC::ex_to<GiNaC::function>(part).get_name());
+}
+
+/// What the functions that the scene gives were written with, at every place where they stand.
+void add_needs_of_functions(const Model& model, const Scene& scene, const ex& written,
+                            std::vector<ex>& needs) {
+  if (scene.lost_of_functions.empty()) return;
+  for (auto part = written.preorder_begin(); part != written.preorder_end(); ++part) {
+    if (!GiNaC::is_exactly_a<GiNaC::function>(*part)) continue;
+    const auto value = as_arbitrary(GiNaC::ex_to<GiNaC::function>(*part));
+    if (!value) continue;
+    const auto lost = scene.lost_of_functions.find(value->function.get_name());
+    const auto given = std::ranges::find_if(model.parameters, [&](const GiNaC::symbol& parameter) {
+      return parameter.is_equal(value->function);
+    });
+    if (lost == scene.lost_of_functions.end() || given == model.parameters.end()) continue;
+    const ex& function =
+        scene.parameters[static_cast<std::size_t>(given - model.parameters.begin())];
+    GiNaC::exmap arguments;
+    for (std::size_t k = 0; k < value->arguments.size(); ++k)
+      arguments[function.op(k)] = model.at_parameters(value->arguments[k], scene);
+    for (const ex& own : lost->second)
+      needs.push_back(bound(model, scene, substituted(own, arguments, model.limits)));
   }
+}
+
+/// What the equations as they were written need of an expression with the numbers and functions of
+/// the scene in it: what it shows no longer, and, where the equations are derived from it, what it
+/// shows.
+void add_needs(const Model& model, const Scene& scene, const ex& written, bool derived,
+               std::vector<ex>& needs) {
   GiNaC::exmap values;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     values[model.parameters[i]] = scene.parameters[i];
-  std::vector<ex> lost;
-  for (const ex& e : written)
-    for (const ex& part : lost_in_substitution(e, values, model.limits, VanishingTerms::dropped))
-      lost.push_back(bound(model, scene, part));
-  return lost;
+  for (const ex& part :
+       lost_in_substitution(written, values, model.limits, VanishingTerms::dropped))
+    needs.push_back(bound(model, scene, part));
+  add_needs_of_functions(model, scene, written, needs);
+  if (!derived) return;
+  const ex now = model.at_parameters(written, scene);
+  for (auto part = now.preorder_begin(); part != now.preorder_end(); ++part)
+    if (may_lack_value(*part)) needs.push_back(*part);
+}
+
+/// All that the equations were written with and that may have no value.
+std::vector<ex> needs_of(const Model& model, const Scene& scene) {
+  std::vector<ex> needs;
+  for (const std::vector<ex>* list : {&model.domain, &model.bracket_domain})
+    for (const ex& part : *list) needs.push_back(bound(model, scene, part));
+  if (!model.hamiltonian || !model.poisson) {
+    for (const ex& rate : model.field) add_needs(model, scene, rate, true, needs);
+    return needs;
+  }
+  add_needs(model, scene, *model.hamiltonian, true, needs);
+  for (std::size_t i = 0; i < model.poisson->dimension(); ++i)
+    for (std::size_t j = i + 1; j < model.poisson->dimension(); ++j)
+      add_needs(model, scene, (*model.poisson)(i, j), true, needs);
+  return needs;
+}
+
+/// Whether a part is certain to have a value where the scene begins.
+bool has_value_at_start(const Model& model, const Scene& scene, const ex& part) {
+  if (scene.initial.size() != model.variables.size()) return false;
+  GiNaC::exmap start;
+  for (std::size_t i = 0; i < model.variables.size(); ++i)
+    start[model.variables[i]] = scene.initial[i];
+  if (model.time) start[*model.time] = 0;
+  constexpr long kBits = 128;
+  try {
+    BallEvaluator evaluate(BallEvaluator::Numbers::real, kBits);
+    return evaluate(substituted(part, start, model.limits)).is_finite();
+  } catch (const NotCertified&) {
+    return false;
+  } catch (const GiNaC::pole_error&) {
+    return false;
+  }
 }
 
 /// The variables and the time.
@@ -73,25 +139,6 @@ std::vector<GiNaC::symbol> symbols_in(const Model& model) {
   std::vector<GiNaC::symbol> symbols = model.variables;
   if (model.time) symbols.push_back(*model.time);
   return symbols;
-}
-
-/// Whether b^r has values wherever b^s has them: both are roots of b, or poles of it.
-bool has_values_like(const ex& root, const ex& other) {
-  if (!GiNaC::is_a<GiNaC::power>(other) || !other.op(0).is_equal(root.op(0))) return false;
-  const ex r = root.op(1), s = other.op(1);
-  if (!r.info(GiNaC::info_flags::rational) || !s.info(GiNaC::info_flags::rational)) return false;
-  const bool is_pole = r.info(GiNaC::info_flags::negative);
-  if (is_pole && !s.info(GiNaC::info_flags::negative)) return false;
-  return r.info(GiNaC::info_flags::integer) || !s.info(GiNaC::info_flags::integer);
-}
-
-/// Whether a factor stands in an expression: itself, or another power of the same that has values
-/// where it has them only.
-bool shows_factor(const ex& e, const ex& factor) {
-  if (e.has(factor)) return true;
-  if (!GiNaC::is_a<GiNaC::power>(factor)) return false;
-  return std::any_of(e.preorder_begin(), e.preorder_end(),
-                     [&](const ex& part) { return has_values_like(factor, part); });
 }
 
 /// Whether an expression is a sum of even powers, as one sees.
@@ -109,41 +156,47 @@ bool is_root_of_squares(const ex& part) {
          is_sum_of_squares(part.op(0));
 }
 
-/// Whether an expression has no value where a part has none, as it is written: it shows all factors
-/// of the part.
-bool shows(const ex& e, const ex& part) {
-  if (!GiNaC::is_a<GiNaC::mul>(part)) return shows_factor(e, part);
-  return std::all_of(part.begin(), part.end(), [&](const ex& factor) {
-    return GiNaC::is_a<GiNaC::numeric>(factor) || shows_factor(e, factor);
-  });
-}
-
-bool is_pole_of_polynomial(const ex& part, const std::vector<GiNaC::symbol>& symbols) {
-  if (!GiNaC::is_a<GiNaC::power>(part) || !part.op(1).info(GiNaC::info_flags::negint)) return false;
+/// The polynomials whose changes of sign are poles of a part that doubles may step over; none where
+/// it is no pole of a polynomial.
+std::vector<ex> zeros_of_pole(const ex& part, const std::vector<GiNaC::symbol>& symbols) {
+  if (!GiNaC::is_a<GiNaC::power>(part) || !part.op(1).info(GiNaC::info_flags::negative)) return {};
   GiNaC::lst list;
   for (const GiNaC::symbol& symbol : symbols) list.append(symbol);
-  return part.op(0).is_polynomial(list);
+  if (!part.op(0).is_polynomial(list)) return {};
+  // Of even powers only the bases change their sign.
+  const ex factors = GiNaC::sqrfree(part.op(0).expand());
+  std::vector<ex> zeros;
+  const auto add = [&](const ex& factor) {
+    const ex base = GiNaC::is_a<GiNaC::power>(factor) ? factor.op(0) : factor;
+    if (!GiNaC::is_a<GiNaC::numeric>(base)) zeros.push_back(base);
+  };
+  if (GiNaC::is_a<GiNaC::mul>(factors))
+    for (const ex& factor : factors) add(factor);
+  else
+    add(factors);
+  return zeros;
 }
 
 }  // namespace
 
 std::vector<ex> cancelled_parts(const Model& model, const Scene& binding) {
-  std::vector<ex> candidates;
-  for (const std::vector<ex>* list : {&model.domain, &model.bracket_domain})
-    for (const ex& written : *list) candidates.push_back(bound(model, binding, written));
-  for (ex& part : lost_in_scene(model, binding)) candidates.push_back(std::move(part));
-  if (candidates.empty()) return candidates;
-  std::vector<ex> fields, parts;
-  for (const ex& rate : model.field) fields.push_back(model.at_parameters(rate, binding));
-  for (const ex& part : candidates) {
+  std::vector<ex> needs;
+  for (const ex& part : needs_of(model, binding)) {
     const auto is_it = [&](const ex& other) { return other.is_equal(part); };
-    const auto shows_it = [&](const ex& rate) { return shows(rate, part); };
-    if (GiNaC::is_a<GiNaC::numeric>(part) || is_root_of_squares(part) ||
-        std::ranges::any_of(parts, is_it) || std::ranges::any_of(fields, shows_it))
-      continue;
-    parts.push_back(part);
+    if (!GiNaC::is_a<GiNaC::numeric>(part) && !is_root_of_squares(part) &&
+        std::ranges::none_of(needs, is_it))
+      needs.push_back(part);
   }
-  return parts;
+  if (needs.empty()) return needs;
+  std::vector<ex> fields;
+  for (const ex& rate : model.field) fields.push_back(model.at_parameters(rate, binding));
+  std::vector<GiNaC::symbol> inputs = symbols_in(model);
+  inputs.insert(inputs.end(), model.parameters.begin(), model.parameters.end());
+  ShownParts shown(fields, inputs);
+  std::erase_if(needs, [&](const ex& part) {
+    return shown.shows(part) || (shown.keeps(part) && has_value_at_start(model, binding, part));
+  });
+  return needs;
 }
 
 std::string unwatched_parts(const Model& model, const Scene& scene) {
@@ -168,9 +221,13 @@ CancelledParts::CancelledParts(const Model& model, const PreparedScene& run)
     };
     if (has_any(part, model.parameters) || std::ranges::any_of(model.variables, is_left_out))
       continue;
-    parts.push_back(part);
-    poles_.push_back(is_pole_of_polynomial(part, symbols));
-    texts_.push_back(printable(expression_text(part), 80));
+    const auto watch = [&](const ex& function, bool is_zero) {
+      parts.push_back(function);
+      changes_sign_.push_back(is_zero);
+      texts_.push_back(printable(expression_text(part), 80));
+    };
+    watch(part, false);
+    for (const ex& zero : zeros_of_pole(part, symbols)) watch(zero, true);
   }
   if (parts.empty()) return;
   values_.emplace(program_of(parts, symbols));
@@ -190,7 +247,7 @@ bool CancelledParts::see(double t, const double* x) {
   if (has_time_) inputs_.back() = t;
   (*values_)(inputs_.data(), now_.data());
   for (std::size_t k = 0; k < now_.size() && !lost_; ++k) {
-    const bool passed = poles_[k] && !before_.empty() && now_[k] * before_[k] < 0;
+    const bool passed = changes_sign_[k] && !before_.empty() && now_[k] * before_[k] < 0;
     if (!std::isfinite(now_[k]) || passed) lost_ = k;
   }
   if (lost_) {

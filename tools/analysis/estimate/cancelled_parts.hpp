@@ -41,7 +41,7 @@ class CancelledParts {
  private:
   bool has_time_;
   std::vector<std::string> texts_;
-  std::vector<bool> poles_;  ///< of each part: it is 1/p of a polynomial p, which changes its sign
+  std::vector<bool> changes_sign_;  ///< of each function: it is lost where it does, as p of 1/p^2
   std::optional<Interpreter> values_;
   std::vector<std::size_t> places_;  ///< among the inputs of `values_`, of each state
   std::vector<double> inputs_, now_, before_;

@@ -13,6 +13,7 @@
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
 #include "tools/analysis/section/periods.hpp"
 
@@ -59,6 +60,9 @@ class Maker {
               fmt::format("'{}' is about the states where '{}' only: that a set stays there is not "
                           "checked",
                           model_.name, printable(assumption.text)));
+    if (const std::string parts = unwatched_parts(model_, scene_); !parts.empty())
+      throw RequestError(
+          fmt::format("'{}' has no horseshoe that can be proved: {}", model_.name, parts));
     if (n_ < 3)
       throw RequestError(
           fmt::format("'{}' has {} states: chaos of a flow needs three", model_.name, n_));

@@ -16,6 +16,7 @@
 #include "runtime/validated/flow_map.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
 #include "tools/analysis/run/exact_values.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
@@ -483,6 +484,7 @@ std::vector<ProvedCycle> enclose_cycles(const Model& model, const Scene& scene,
   const Scene open = scene_over(model, scene, ranges);
   const Intervals intervals = intervals_of(model, scene, ranges);
   if (reason.empty()) reason = left_by(model, open, intervals);
+  if (reason.empty()) reason = unwatched_parts(model, open);
   std::optional<Prover> prover;
   if (reason.empty()) {
     try {
