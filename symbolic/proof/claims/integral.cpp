@@ -18,6 +18,16 @@ Residual rate_of(Prover& prover, const NamedExpression& f) {
           [&prover, value] { return prover.model().rate(value); }};
 }
 
+/// Whether it has an angle in it, which jumps at its cut. The rate vanishes on both sides of that;
+/// a motion that crosses it finds another value there.
+bool has_angle(const GiNaC::ex& value) {
+  return std::any_of(value.preorder_begin(), value.preorder_end(), [](const GiNaC::ex& part) {
+    return GiNaC::is_a<GiNaC::function>(part) &&
+           GiNaC::ex_to<GiNaC::function>(part).get_name() == "atan2" &&
+           !GiNaC::is_a<GiNaC::numeric>(part.op(0)) && !GiNaC::is_a<GiNaC::numeric>(part.op(1));
+  });
+}
+
 /// Are `residuals` zero on the level, and is the level itself invariant?
 void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<Residual>& residuals,
                                const NamedExpression& f, const std::vector<NamedExpression>& on) {
@@ -67,6 +77,9 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
             decide_motions(prover, proof, on, [&](Proof& own, const auto& level) {
               decide_on_invariant_level(prover, own, {rate_of(prover, f)}, f, level);
             });
+            if (proof.verdict == Verdict::proved && has_angle(f.value))
+              proof.evidence += (proof.evidence.empty() ? "" : "; ") +
+                                std::string("between the jumps of atan2, at its cut");
           },
           names_of(on),
           values_of(on, f),

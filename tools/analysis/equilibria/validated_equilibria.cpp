@@ -10,6 +10,7 @@
 #include "runtime/step/dense.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
 #include "tools/analysis/run/exact_values.hpp"
 
@@ -272,8 +273,7 @@ class Prover {
 
   /// \throws NotCertified  where the box is not certain to be where the case is defined
   void check_domain(const BallMatrix& z) const {
-    for (const std::vector<GiNaC::ex>* parts : {&model_.domain, &model_.bracket_domain})
-      for (const GiNaC::ex& part : *parts) functions({at_scene(part)})(z);
+    for (const GiNaC::ex& part : written_parts(model_, scene_)) functions({part})(z);
     for (const Assumption& assumption : model_.assumptions) {
       const BallMatrix value = functions({at_scene(assumption.difference)})(z);
       Ball ball;

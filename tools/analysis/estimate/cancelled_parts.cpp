@@ -100,22 +100,6 @@ void add_needs(const Model& model, const Scene& scene, const ex& written, bool d
     if (may_lack_value(*part)) needs.push_back(*part);
 }
 
-/// All that the equations were written with and that may have no value.
-std::vector<ex> needs_of(const Model& model, const Scene& scene) {
-  std::vector<ex> needs;
-  for (const std::vector<ex>* list : {&model.domain, &model.bracket_domain})
-    for (const ex& part : *list) needs.push_back(bound(model, scene, part));
-  if (!model.hamiltonian || !model.poisson) {
-    for (const ex& rate : model.field) add_needs(model, scene, rate, true, needs);
-    return needs;
-  }
-  add_needs(model, scene, *model.hamiltonian, true, needs);
-  for (std::size_t i = 0; i < model.poisson->dimension(); ++i)
-    for (std::size_t j = i + 1; j < model.poisson->dimension(); ++j)
-      add_needs(model, scene, (*model.poisson)(i, j), true, needs);
-  return needs;
-}
-
 /// Whether a part is certain to have a value where the scene begins.
 bool has_value_at_start(const Model& model, const Scene& scene, const ex& part) {
   if (scene.initial.size() != model.variables.size()) return false;
@@ -179,9 +163,24 @@ std::vector<ex> zeros_of_pole(const ex& part, const std::vector<GiNaC::symbol>& 
 
 }  // namespace
 
+std::vector<ex> written_parts(const Model& model, const Scene& scene) {
+  std::vector<ex> needs;
+  for (const std::vector<ex>* list : {&model.domain, &model.bracket_domain})
+    for (const ex& part : *list) needs.push_back(bound(model, scene, part));
+  if (!model.hamiltonian || !model.poisson) {
+    for (const ex& rate : model.field) add_needs(model, scene, rate, true, needs);
+    return needs;
+  }
+  add_needs(model, scene, *model.hamiltonian, true, needs);
+  for (std::size_t i = 0; i < model.poisson->dimension(); ++i)
+    for (std::size_t j = i + 1; j < model.poisson->dimension(); ++j)
+      add_needs(model, scene, (*model.poisson)(i, j), true, needs);
+  return needs;
+}
+
 std::vector<ex> cancelled_parts(const Model& model, const Scene& binding) {
   std::vector<ex> needs;
-  for (const ex& part : needs_of(model, binding)) {
+  for (const ex& part : written_parts(model, binding)) {
     const auto is_it = [&](const ex& other) { return other.is_equal(part); };
     if (!GiNaC::is_a<GiNaC::numeric>(part) && !is_root_of_squares(part) &&
         std::ranges::none_of(needs, is_it))

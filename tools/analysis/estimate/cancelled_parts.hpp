@@ -12,6 +12,12 @@
 
 namespace casimir {
 
+/// All that the equations, or the Hamiltonian and the bracket, were written with and that may have
+/// no value: functions, roots and quotients, in terms of the variables, the time and whatever
+/// `binding` leaves open. The case is about states at which all of it has values.
+/// \throws ModelError  for one that has no value whatever the variables are
+std::vector<GiNaC::ex> written_parts(const Model& model, const Scene& binding);
+
 /// What the equations were written with and no longer show, as sqrt(x) of sqrt(x)^2, or of
 /// sqrt(x)^a where the scene says a = 2, in terms of the variables, the time and whatever `binding`
 /// leaves open; terms that the scene makes zero are not there at all: a solution is one of the case
