@@ -42,6 +42,7 @@ enum class VanishingTerms {
 /// The functions and powers that an expression needs and no longer shows once values are put into
 /// it, each with the values in it: sqrt(q) of U(sqrt(q)) for U = r^2, log(q) of exp(a*log(q)) for
 /// a = 1. What comes out is the expression with these values only where all of them have a value.
+/// Constants that are no real numbers are among them, as sqrt(-1).
 /// \throws TooLarge, GiNaC::pole_error  as `substituted`
 std::vector<GiNaC::ex> lost_in_substitution(const GiNaC::ex& expression, const GiNaC::exmap& values,
                                             const Limits& limits, VanishingTerms vanishing);

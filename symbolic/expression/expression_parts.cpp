@@ -8,6 +8,7 @@
 #include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/expression/principal_values.hpp"
 
 namespace casimir {
 namespace {
@@ -49,6 +50,8 @@ class LostInSubstitution {
     if (is_part || GiNaC::is_a<GiNaC::mul>(e)) {
       const ex now = substituted(e, values_, limits_);
       if (vanishing_ == VanishingTerms::dropped && now.is_zero() && is_switched_off(e)) return;
+      // Real as it is written; GiNaC may make a real number of two of them.
+      if (is_part && is_no_real_constant(now, limits_.bits)) lost_.push_back(now);
       if (is_part)
         for (const ex& part : visible_parts(now))
           if (!is_ring_power(part) && known_.insert(part).second) lost_.push_back(part);

@@ -8,6 +8,7 @@
 #include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/expression/principal_values.hpp"
 
 namespace casimir {
 namespace {
@@ -138,8 +139,11 @@ ex GivenFunctions::put(const ex& expression) const {
 }
 
 void GivenFunctions::put_into(ex& expression, std::vector<ex>& domain) const {
-  for (const ex& part : lost_in_substitution(expression, values, limits, VanishingTerms::counted))
+  for (const ex& part : lost_in_substitution(expression, values, limits, VanishingTerms::counted)) {
+    if (!complex_numbers && is_no_real_constant(part, limits.bits))
+      throw ModelError("with these functions an expression has no real value");
     domain.push_back(part);
+  }
   expression = put(expression);
 }
 
@@ -152,7 +156,7 @@ NamedExpression GivenFunctions::put(NamedExpression f) const {
 std::vector<GivenFunctions> function_choices(const Model& model) {
   std::vector<GivenFunctions> result;
   for (const int degree : {1, 2, 3, -2}) {
-    result.push_back({model.limits, {}, {}});
+    result.push_back({model.limits, {}, {}, model.complex_numbers});
     int which = 0;
     for (const GiNaC::symbol& parameter : model.parameters) {
       const auto function = function_name(parameter.get_name());
@@ -182,7 +186,7 @@ Model with_functions(const Model& model, const GivenFunctions& given) {
 }
 
 std::pair<Model, Scene> in_scene(const Model& model, const Scene& scene) {
-  GivenFunctions given{model.limits, {}, {}};
+  GivenFunctions given{model.limits, {}, {}, model.complex_numbers};
   Scene own = scene;
   own.parameters.clear();
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {

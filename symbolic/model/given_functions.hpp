@@ -18,12 +18,14 @@ struct GivenFunctions {
   Limits limits;                                           ///< of the case
   GiNaC::exmap values;                                     ///< by the symbol of the function
   std::vector<std::pair<std::string, std::string>> texts;  ///< "U(r)" and "r^2 + r"
+  bool complex_numbers = false;                            ///< as of the case
 
   /// An expression with these functions in place of the arbitrary ones.
   /// \throws TooLarge  beyond the limit `bits`
   GiNaC::ex put(const GiNaC::ex& expression) const;
   /// Puts them into an expression and into what it needs values of, to which is added what the
   /// expression does not show any longer: U(sqrt(q)) is 1 + q for U = 1 + r^2, where q >= 0.
+  /// \throws ModelError  where a part of it becomes a constant that is no real number
   void put_into(GiNaC::ex& expression, std::vector<GiNaC::ex>& domain) const;
   /// The same of a function with a domain of its own.
   NamedExpression put(NamedExpression f) const;

@@ -85,6 +85,9 @@ TEST(ArbitraryFunctions, KeepTheDomainsOfTheirArguments) {
   EXPECT_NE(identity("U(sqrt(q^3 + q + exp(q) - 1))*(abs(q) - q) = 0"), Verdict::refuted);
   EXPECT_NE(identity("U(sqrt(atan2(p, q)))*(abs(p) - p) = 0"), Verdict::refuted);
   EXPECT_NE(identity("U'(sqrt(q^3 + q + exp(q) - 1))*(abs(q) - q) = 0"), Verdict::refuted);
+  EXPECT_NE(identity("sqrt((q - U(q))*(q - 3)) = sqrt(q - U(q))*sqrt(q - 3)"), Verdict::refuted);
+  EXPECT_NE(identity("(abs(q) - q)*sqrt(q*U(0))*sqrt(U(0)) = 0"), Verdict::refuted);
+  EXPECT_NE(identity("log(-1 - U(0)^2) = log(-1 - U(0)^2) + 0*q"), Verdict::proved);
   // About nothing.
   EXPECT_EQ(identity("U(sqrt(q)) = U(sqrt(-q))", "domain = [\"q > 0\"]\n"), Verdict::undecided);
   EXPECT_EQ(identity("(sin(q)^2 + cos(q)^2)*U(sqrt(-1 - q^2)) = U(sqrt(-1 - q^2))"),

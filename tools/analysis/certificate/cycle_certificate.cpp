@@ -183,6 +183,8 @@ class CycleEquations {
     Model model = model_of_certificate(run);
     if (!model.scenes.front().duration) throw CycleRefuted{"there is no period"};
     if (model.time) throw CycleRefuted{"the equations have the time in them"};
+    if (has_lost_parts(model, certificate.plane))
+      throw CycleRefuted{"a part cancels in it that need not have a value"};
     if (model.integrals.size() != certificate.levels.size())
       throw CycleRefuted{"there is not one level for each integral"};
     return model;

@@ -108,6 +108,8 @@ class HorseshoeCheck {
 
  private:
   horseshoe::SectionSystem system_of() const {
+    if (has_lost_parts(model_, certificate_.plane))
+      throw HorseshoeRefuted{"a part cancels in it that need not have a value"};
     SectionRequest request;
     request.plane =
         FunctionText{model_.parse({certificate_.plane, {"plane", 1, 1}, certificate_.plane}),

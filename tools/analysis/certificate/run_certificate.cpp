@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tools/analysis/estimate/cancelled_parts.hpp"
+
 namespace casimir {
 namespace {
 
@@ -30,6 +32,13 @@ Model model_of_certificate(const RunCertificate& certificate) {
                     "expected variables, equations, integrals and one scene, and nothing else");
   file.name = certificate.of_case;
   return build_model(file);
+}
+
+bool has_lost_parts(const Model& model, const std::string& plane) {
+  const auto has_domain = [](const NamedExpression& f) { return !f.domain.empty(); };
+  return !unwatched_parts(model, model.scenes.front()).empty() ||
+         std::ranges::any_of(model.integrals, has_domain) ||
+         has_domain(model.parse_named({plane, {"plane", 1, 1}, plane}));
 }
 
 CheckedCertificate check_certificate(const RunCertificate& certificate,

@@ -27,6 +27,10 @@ struct RunCertificate {
 /// The equations of a certificate as a model. \throws CaseError  for a text with anything else in it.
 Model model_of_certificate(const RunCertificate& certificate);
 
+/// Whether something was simplified away that need not have a value, as sqrt(x)^2 or 0*log(x), in
+/// the equations, the integrals or a plane: then nothing is proved of what is written.
+bool has_lost_parts(const Model& model, const std::string& plane);
+
 /// What came of a certificate.
 struct CheckedCertificate {
   TraceCheck check;                ///< of the steps

@@ -10,6 +10,7 @@
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/expression/elliptic.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/expression/principal_values.hpp"
@@ -55,8 +56,10 @@ ex bound(const Model& model, const Scene& scene, const ex& part) {
 bool may_lack_value(const ex& part) {
   static const std::set<std::string> kAlways{"exp", "sin", "cos", "sinh", "cosh", "tanh", "atan"};
   if (GiNaC::is_a<GiNaC::power>(part)) return !part.op(1).info(GiNaC::info_flags::posint);
-  return GiNaC::is_a<GiNaC::function>(part) &&
-         !kAlways.contains(GiNaC::ex_to<GiNaC::function>(part).get_name());
+  if (!GiNaC::is_exactly_a<GiNaC::function>(part)) return false;
+  const auto& function = GiNaC::ex_to<GiNaC::function>(part);
+  // The derivatives of elliptic functions are made of elliptic functions of the same.
+  return !is_elliptic_function(function) && !kAlways.contains(function.get_name());
 }
 
 /// What the functions that the scene gives were written with, at every place where they stand.

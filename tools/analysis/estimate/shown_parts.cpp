@@ -80,30 +80,34 @@ bool ShownParts::shows(const ex& part) {
   return shows_factor(own.node, 1);
 }
 
-/// Whether a power of an expression occurs, with such an exponent; of a product those of all
-/// factors.
-bool ShownParts::has_power(const ex& base, bool (*fits)(const cln::cl_RA&)) {
-  const auto has = [&](NodeId id) {
-    const auto found = powers_.find(id);
-    return found != powers_.end() && std::ranges::any_of(found->second, fits);
+/// Whether the fields have a pole, or a root in a divisor, where an expression vanishes; of a
+/// product where each factor does.
+bool ShownParts::has_pole_at_zero_of(const ex& base) {
+  const auto has = [&](const codegen::Factor& factor) {
+    const auto found = powers_.find(factor.node);
+    return found != powers_.end() && std::ranges::any_of(found->second, is_negative);
   };
-  const codegen::Scaled own = dag_.convert(base);
-  const codegen::Node node = dag_[own.node];
-  if (node.kind != NodeKind::product) return has(own.node);
-  return std::ranges::all_of(node.factors,
-                             [&](const codegen::Factor& factor) { return has(factor.node); });
+  // The radicand of a root has a sign of its own.
+  for (const ex& exponent : {ex(-1), ex(-1) / 2}) {
+    try {
+      const codegen::Node node = dag_[dag_.convert(GiNaC::pow(base, exponent)).node];
+      if (node.kind == NodeKind::product && std::ranges::all_of(node.factors, has)) return true;
+    } catch (const ModelError&) {  // a root that is real nowhere
+    }
+  }
+  return false;
 }
 
 bool ShownParts::keeps(const ex& part) {
-  if (is_call(part, "log")) return has_power(part.op(0), is_negative);
+  if (is_call(part, "log")) return has_pole_at_zero_of(part.op(0));
   if (is_call(part, "asin") || is_call(part, "acos"))
-    return has_power(1 - GiNaC::pow(part.op(0), 2), is_negative);
+    return has_pole_at_zero_of(1 - GiNaC::pow(part.op(0), 2));
   if (is_call(part, "atan2"))
-    return has_power(GiNaC::pow(part.op(0), 2) + GiNaC::pow(part.op(1), 2), is_negative) ||
-           has_power(part.op(1), is_negative);
+    return has_pole_at_zero_of(GiNaC::pow(part.op(0), 2) + GiNaC::pow(part.op(1), 2)) ||
+           has_pole_at_zero_of(part.op(1));
   // A root is real as long as its radicand does not come to zero.
   return GiNaC::is_a<GiNaC::power>(part) && part.op(1).info(GiNaC::info_flags::rational) &&
-         has_power(part.op(0), is_negative);
+         has_pole_at_zero_of(part.op(0));
 }
 
 }  // namespace casimir

@@ -27,7 +27,7 @@ class ShownParts {
 
  private:
   void collect(codegen::NodeId node);
-  bool has_power(const GiNaC::ex& base, bool (*fits)(const cln::cl_RA&));
+  bool has_pole_at_zero_of(const GiNaC::ex& base);
   bool shows_factor(codegen::NodeId node, const cln::cl_RA& exponent) const;
 
   codegen::Dag dag_;
