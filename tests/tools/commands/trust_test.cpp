@@ -237,7 +237,7 @@ TEST(Trust, ARefutedIntegralSaysNothingOfTheState) {
     const auto json = run_in(folder, {"integrate", "./o.toml", "--json"}).json();
     return std::stod(json.at("trust").at("error_estimate").get<std::string>());
   };
-  EXPECT_LT(error("[integrals]\nI = \"log(q + 3)\"\n"), 1e-12);
+  EXPECT_LT(error("[integrals]\nK = \"log(q + 3)\"\n"), 1e-12);
   EXPECT_LT(error(""), 1e-12);
 }
 

@@ -100,8 +100,7 @@ canonical = true
 [parameters]
 a = {}
 [integrals]
-F = "a*p2"
-G = "sqrt(a)^2*p2"
+F = "sqrt(a)^2*p2"
 [[scene]]
 name = "default"
 parameters = { a = "1" }
