@@ -85,11 +85,9 @@ void add_needs_of_functions(const Model& model, const Scene& scene, const ex& wr
   }
 }
 
-/// What the equations as they were written need of an expression with the numbers and functions of
-/// the scene in it: what it shows no longer, and, where the equations are derived from it, what it
-/// shows.
-void add_needs(const Model& model, const Scene& scene, const ex& written, bool derived,
-               std::vector<ex>& needs) {
+/// What an expression needs values of with the numbers and functions of the scene in it: what it
+/// shows, and what it shows no longer.
+void add_needs(const Model& model, const Scene& scene, const ex& written, std::vector<ex>& needs) {
   GiNaC::exmap values;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     values[model.parameters[i]] = scene.parameters[i];
@@ -97,7 +95,6 @@ void add_needs(const Model& model, const Scene& scene, const ex& written, bool d
        lost_in_substitution(written, values, model.limits, VanishingTerms::dropped))
     needs.push_back(bound(model, scene, part));
   add_needs_of_functions(model, scene, written, needs);
-  if (!derived) return;
   const ex now = model.at_parameters(written, scene);
   for (auto part = now.preorder_begin(); part != now.preorder_end(); ++part)
     if (may_lack_value(*part)) needs.push_back(*part);
@@ -171,13 +168,13 @@ std::vector<ex> written_parts(const Model& model, const Scene& scene) {
   for (const std::vector<ex>* list : {&model.domain, &model.bracket_domain})
     for (const ex& part : *list) needs.push_back(bound(model, scene, part));
   if (!model.hamiltonian || !model.poisson) {
-    for (const ex& rate : model.field) add_needs(model, scene, rate, true, needs);
+    for (const ex& rate : model.field) add_needs(model, scene, rate, needs);
     return needs;
   }
-  add_needs(model, scene, *model.hamiltonian, true, needs);
+  add_needs(model, scene, *model.hamiltonian, needs);
   for (std::size_t i = 0; i < model.poisson->dimension(); ++i)
     for (std::size_t j = i + 1; j < model.poisson->dimension(); ++j)
-      add_needs(model, scene, (*model.poisson)(i, j), true, needs);
+      add_needs(model, scene, (*model.poisson)(i, j), needs);
   return needs;
 }
 
