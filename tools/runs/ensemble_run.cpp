@@ -266,7 +266,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   settings.give_up = time_limit(request.common.time_limit);
   settings.invariant_terms = nullptr;
   Ensemble ensemble = members(run, file);
-  require_members(model, scene, run.specialisation, ensemble);
+  const std::string off_constraints = require_members(model, scene, run.specialisation, ensemble);
   scale_tolerances(request.run.request(request.common.limits), run, settings, ensemble);
   const EnsembleKernel kernel =
       ensemble_kernel(run, method, ensemble.size(), !(settings.fixed_step > 0));
@@ -281,8 +281,9 @@ int integrate_ensemble(const EnsembleRequest& request) {
     throw UsageError(problem.what());
   }
   const std::vector<CheckedMember> checked = check_members(run, method, settings, ensemble, result);
-  const std::vector<std::string> warnings =
+  std::vector<std::string> warnings =
       warnings_on(kernel, run, settings, checked, unwatched_parts(model, scene));
+  if (!off_constraints.empty()) warnings.insert(warnings.begin(), off_constraints);
   const EnsembleReport report{run, method, settings, kernel, result, checked, warnings};
   if (!request.output.empty()) write_table(request.output, table_of(report));
   if (request.common.json) {

@@ -326,6 +326,10 @@ class Runs(unittest.TestCase):
         many = start + 0.01 * rng.standard_normal((20, 6))
         ends = top.ensemble(many, duration=5, tolerance=1e-12)
         self.assertTrue(ends.success)
+        self.assertRegex(ends.warnings[0], "member 1: the constraint .*, and 19 more members")
+        self.assertEqual(top.ensemble([start], duration=1).warnings, [])
+        with self.assertRaisesRegex(casimir.RequestError, "member 1: the assumption r != 0"):
+            top.ensemble([start], parameters={"r": [0]}, duration=1)
         flow = top.system(method="taylor")
         for row, end in zip(many, ends.y):
             np.testing.assert_allclose(end, flow.flow(row, 5, 1e-12), atol=1e-10)

@@ -108,15 +108,25 @@ bool may_pass_over(const PreparedScene& run, const Settings& settings) {
   return StepWatch(run.specialisation.rhs).looks(parameters, run.initial.data());
 }
 
-void require_members(const Model& model, const Scene& scene, const Specialisation& s,
-                     const Ensemble& ensemble) {
-  if (model.constraints.empty() && model.assumptions.empty()) return;
+std::string require_members(const Model& model, const Scene& scene, const Specialisation& s,
+                            const Ensemble& ensemble) {
+  if (model.constraints.empty() && model.assumptions.empty()) return {};
   PointCheck check(model, scene, s);
+  std::size_t beside = 0;
+  std::string first;
   for (std::size_t member = 0; member < ensemble.size(); ++member) {
     const double *x = ensemble.state(member), *p = ensemble.values_of(member);
     const auto fault = check({x, x + ensemble.states}, {p, p + ensemble.parameters});
-    if (fault) throw RequestError(fmt::format("member {}: {}", member + 1, fault->text));
+    if (!fault) continue;
+    const std::string text = fmt::format("member {}: {}", member + 1, fault->text);
+    if (!fault->constraint) throw RequestError(text);
+    if (++beside == 1) first = text;
   }
+  if (beside == 0) return {};
+  return fmt::format(
+      "{}{}; what is proved of the case, its invariants among it, need not hold there", first,
+      beside > 1 ? fmt::format(", and {} more members are not on the constraints", beside - 1)
+                 : "");
 }
 
 }  // namespace casimir

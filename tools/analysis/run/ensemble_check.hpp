@@ -22,10 +22,12 @@ std::vector<std::size_t> members_to_check(
     std::size_t members, const std::function<bool(std::size_t)>& ended,
     const std::function<unsigned long long(std::size_t)>& steps);
 
-/// \throws RequestError  for a member that violates an assumption or leaves a constraint of the case,
-///                     which no scene does; the message names the first
-void require_members(const Model& model, const Scene& scene, const Specialisation& s,
-                     const Ensemble& ensemble);
+/// What a scene is checked for, of members: their equations have a meaning off the constraints,
+/// too, but what is proved of the case does not hold there.
+/// \return  a warning on members that leave a constraint of the case; empty where none does
+/// \throws RequestError  for a member that violates an assumption; the message names the first
+std::string require_members(const Model& model, const Scene& scene, const Specialisation& s,
+                            const Ensemble& ensemble);
 
 /// Integrates some members again by themselves, each for no more than about `budget` seconds, with
 /// an estimate of their errors: `members_to_check`. One that does not reach the end in that time is

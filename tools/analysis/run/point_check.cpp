@@ -72,14 +72,14 @@ std::optional<PointFault> PointCheck::operator()(const std::vector<double>& stat
   const std::size_t own = constraints_.size() + assumptions_.size();
   for (std::size_t k = 0; k < slopes_.size(); ++k)
     values[slopes_[k]].size = std::max(values[slopes_[k]].size, std::abs(values[own + k].value));
-  for (std::size_t i = 0; i < constraints_.size(); ++i)
-    if (!vanishes(values[i]))
-      return PointFault{true, fmt::format("the constraint {} is {:.3g} instead of 0",
-                                          constraints_[i], static_cast<double>(values[i].value))};
   for (std::size_t i = 0; i < assumptions_.size(); ++i)
     if (!holds(assumptions_[i], values[constraints_.size() + i]))
       return PointFault{false,
                         fmt::format("the assumption {} does not hold", assumptions_[i].text)};
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (!vanishes(values[i]))
+      return PointFault{true, fmt::format("the constraint {} is {:.3g} instead of 0",
+                                          constraints_[i], static_cast<double>(values[i].value))};
   return std::nullopt;
 }
 

@@ -516,6 +516,7 @@ class Case:
             y=answer["states"], t=answer["t"], status=answer["status"],
             drift={name: drift[:, k] for k, name in enumerate(answer["invariant_names"])},
             steps=answer["steps"], names=answer["names"], seconds=answer["seconds"], jobs=answer["jobs"],
+            warnings=answer["warnings"],
         )
 
     def system(self, *, scene: str = "default", method: str = "dop853", keep: Sequence[str] = ()) -> System:

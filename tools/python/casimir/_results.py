@@ -644,6 +644,7 @@ class Ensemble:
     names: list[str]  #: of the columns of y
     seconds: float  #: of the integration alone
     jobs: int  #: threads that took part
+    warnings: list[str]  #: on members that are not on the constraints of the case
 
     @property
     def success(self) -> bool:
@@ -653,6 +654,7 @@ class Ensemble:
     def _repr_html_(self) -> str:
         kinds = sorted(set(self.status))
         rows = [(kind, self.status.count(kind)) for kind in kinds]
+        rows += [("warning", warning) for warning in self.warnings]
         return table(["status", "members"], rows, f"{len(self.status)} members in {self.seconds:.3g} s")
 
 

@@ -359,6 +359,7 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
   Ensemble members;
   EnsembleResult result;
   Names states, invariants;
+  std::string off_constraints;
   {
     const ExactAlgebra guard;
     const Model& model = self.model();
@@ -380,7 +381,7 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     fill(members.initial, members.states, initial, places_of(variables, states, "a variable"));
     fill(members.values, members.parameters, values,
          places_of(parameters, s.parameters, "a parameter"));
-    require_members(model, model.scene(scene), s, members);
+    off_constraints = require_members(model, model.scene(scene), s, members);
     const Method& by = method_named(method);
     const RunRequest asked = request(duration, tolerance, rtol, atol);
     Settings settings = settings_for(asked, run);
@@ -417,7 +418,8 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
   }
   return py::dict("names"_a = states, "invariant_names"_a = invariants, "states"_a = ends,
                   "t"_a = times, "drift"_a = drift, "status"_a = status, "steps"_a = steps,
-                  "seconds"_a = result.seconds, "jobs"_a = result.jobs);
+                  "seconds"_a = result.seconds, "jobs"_a = result.jobs,
+                  "warnings"_a = off_constraints.empty() ? Names{} : Names{off_constraints});
 }
 
 }  // namespace
