@@ -141,7 +141,8 @@ ex GivenFunctions::put(const ex& expression) const {
 void GivenFunctions::put_into(ex& expression, std::vector<ex>& domain) const {
   for (const ex& part : lost_in_substitution(expression, values, limits, VanishingTerms::counted)) {
     if (!complex_numbers && is_no_real_constant(part, limits.bits))
-      throw ModelError("with these functions an expression has no real value");
+      throw ModelError(fmt::format("with the functions that are given, {} has no real value",
+                                   printable(expression_text(expression), 80)));
     domain.push_back(part);
   }
   expression = put(expression);

@@ -99,6 +99,18 @@ TEST(CancelledParts, OfAHamiltonianAreThoseThatItsDerivativesLoseToo) {
   EXPECT_EQ(solve(even, even.scene("default"), {}).trajectory().status, Status::singularity);
 }
 
+/// Poles of polynomials over the real numbers, which GiNaC does not factor.
+TEST(CancelledParts, MayHaveIrrationalCoefficients) {
+  for (const char* potential : {"(q + sqrt(2))^2/(q + sqrt(2))", "(q + Pi)^2/(q + Pi)^2 + q",
+                                "(q^2 - 2*sqrt(2)*q + 2)^2/(q^2 - 2*sqrt(2)*q + 2)"}) {
+    const Model model = of_hamiltonian(potential);
+    EXPECT_NO_THROW(solve(model, model.scene("default"), {})) << potential;
+  }
+  // q = 1 - t^2/2 comes to -sqrt(2) at t = 2.2.
+  const Model pole = of_hamiltonian("(q + sqrt(2))^2/(q + sqrt(2))");
+  EXPECT_EQ(solve(pole, pole.scene("default"), {}).trajectory().status, Status::singularity);
+}
+
 /// What the equations show is noticed without being watched, and has its certificate.
 TEST(CancelledParts, AreNotWhatTheEquationsShow) {
   for (const char* potential : {"q^2 - log(q)", "q^2 + 1/q", "q^2 + sqrt(q^2 + 1)", "q^2 + abs(q)",

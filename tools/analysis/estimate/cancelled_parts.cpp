@@ -147,12 +147,14 @@ std::vector<ex> zeros_of_pole(const ex& part, const std::vector<GiNaC::symbol>& 
   GiNaC::lst list;
   for (const GiNaC::symbol& symbol : symbols) list.append(symbol);
   if (!part.op(0).is_polynomial(list)) return {};
-  // Of even powers only the bases change their sign.
-  const ex factors = GiNaC::sqrfree(part.op(0).expand());
+  // Of even powers only the bases change their sign. GiNaC factors over the rational numbers.
+  const ex base = part.op(0).expand();
+  const ex factors =
+      base.info(GiNaC::info_flags::rational_polynomial) ? GiNaC::sqrfree(base) : part.op(0);
   std::vector<ex> zeros;
   const auto add = [&](const ex& factor) {
-    const ex base = GiNaC::is_a<GiNaC::power>(factor) ? factor.op(0) : factor;
-    if (!GiNaC::is_a<GiNaC::numeric>(base)) zeros.push_back(base);
+    const ex root = GiNaC::is_a<GiNaC::power>(factor) ? factor.op(0) : factor;
+    if (has_any(root, symbols)) zeros.push_back(root);
   };
   if (GiNaC::is_a<GiNaC::mul>(factors))
     for (const ex& factor : factors) add(factor);
