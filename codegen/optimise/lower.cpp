@@ -216,4 +216,11 @@ Program without_dead_code(const Program& program) {
   return result;
 }
 
+Program single_output(const Program& program, std::size_t k) {
+  Program one = program;
+  one.outputs = {program.outputs[k]};
+  one.output_names = {program.output_names[k]};
+  return without_dead_code(one);
+}
+
 }  // namespace casimir::codegen

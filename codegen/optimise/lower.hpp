@@ -33,4 +33,7 @@ Program lowered(const TermSystem& system, const std::vector<std::string>& inputs
 /// The same program without the instructions that no output needs. The inputs stay.
 Program without_dead_code(const Program& program);
 
+/// The program of one of its outputs alone. \param k  among them, from 0
+Program single_output(const Program& program, std::size_t k);
+
 }  // namespace casimir::codegen

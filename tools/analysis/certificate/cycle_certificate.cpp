@@ -67,10 +67,7 @@ class CycleEquations {
     const Specialisation s = scaled();
     std::vector<Program> result;
     for (std::size_t k = 0; k < s.invariants.outputs.size(); ++k) {
-      Program one = s.invariants;
-      one.outputs = {s.invariants.outputs[k]};
-      one.output_names = {s.invariants.output_names[k]};
-      one = codegen::without_dead_code(one);
+      Program one = codegen::single_output(s.invariants, k);
       if (!validated::is_rational(one)) result.push_back(std::move(one));
     }
     return result;

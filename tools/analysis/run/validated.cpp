@@ -34,13 +34,6 @@ Program with_resting(Program rates, const std::vector<std::string>& resting) {
   return rates;
 }
 
-Program one_output(const Program& program, std::size_t k) {
-  Program one = program;
-  one.outputs = {program.outputs[k]};
-  one.output_names = {program.output_names[k]};
-  return codegen::without_dead_code(one);
-}
-
 bool has_any(const GiNaC::ex& e, const std::vector<GiNaC::symbol>& symbols) {
   return std::ranges::any_of(symbols, [&](const GiNaC::symbol& x) { return e.has(x); });
 }
@@ -78,8 +71,10 @@ std::vector<KnownIntegral> known_integrals(const Model& given, const Specialisat
                                    proof.verdict == Verdict::refuted ? "refuted" : "not proved"));
       continue;
     }
-    KnownIntegral known{
-        .name = name, .value = one_output(s.invariants, k), .gradient = {}, .states = {}};
+    KnownIntegral known{.name = name,
+                        .value = codegen::single_output(s.invariants, k),
+                        .gradient = {},
+                        .states = {}};
     const SparseProgram gradient = codegen::gradients(known.value, dimension);
     known.gradient = gradient.program;
     for (const auto& [state, output] : gradient.entries) known.states.push_back(state);

@@ -10,10 +10,7 @@
 #include <numeric>
 #include <optional>
 
-#include "codegen/optimise/differentiate.hpp"
-#include "codegen/optimise/lower.hpp"
 #include "codegen/specialise.hpp"
-#include "runtime/validated/flow_map.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
@@ -21,125 +18,10 @@
 #include "tools/analysis/run/exact_values.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/analysis/run/validated.hpp"
+#include "tools/analysis/section/flow_to_time.hpp"
 
 namespace casimir {
 namespace {
-
-/// Why a cycle is not proved: a sentence.
-struct NotProved {
-  std::string reason;
-};
-
-/// Parameters with the interval of each.
-using Intervals = std::vector<std::pair<GiNaC::symbol, RationalInterval>>;
-
-/// Where a box of starts and times is after its time, with the derivatives of that.
-struct Image {
-  BallMatrix state;        ///< phi_T(x)
-  BallMatrix derivatives;  ///< by x (where they are wanted) and T
-};
-
-Program single_output(const Program& program, std::size_t k) {
-  Program one = program;
-  one.outputs = {program.outputs[k]};
-  one.output_names = {program.output_names[k]};
-  return codegen::without_dead_code(one);
-}
-
-/// The flow of a scene to a time, with its derivatives.
-class FlowToTime {
- public:
-  /// \param scene   with the symbols of the parameters that have ranges: further states, at rest.
-  /// \param levels  functions that are proved to be constant, by their names.
-  FlowToTime(const Model& model, const Scene& scene, const std::vector<NamedExpression>& levels,
-             const Intervals& ranges)
-      : n_(model.variables.size()), ranges_(ranges) {
-    Model extended;
-    extended.limits = model.limits;
-    extended.name = model.name;
-    extended.phase_space = "equations";
-    extended.variables = model.variables;
-    for (const GiNaC::ex& rate : model.field)
-      extended.field.push_back(model.at_parameters(rate, scene));
-    for (const auto& [symbol, interval] : ranges_) {
-      extended.variables.push_back(symbol);
-      extended.field.emplace_back(0);
-    }
-    extended.integrals = levels;
-    Scene scene_of_zeros;
-    scene_of_zeros.name = "cycle";
-    scene_of_zeros.initial.assign(extended.variables.size(), 0);
-    scene_of_zeros.duration = 1;
-    SpecialiseOptions what;
-    what.observe = std::vector<std::string>{};
-    what.jacobian = false;
-    const Specialisation s = specialise(extended, scene_of_zeros, what);
-    const std::size_t states = extended.variables.size();
-    const SparseProgram jacobian = codegen::jacobian(s.rhs, states);
-    flow_ = validated::joined(s.rhs, jacobian.program, jacobian.entries);
-    for (std::size_t k = 0; k < s.invariant_names.size(); ++k) {
-      const Program value = single_output(s.invariants, k);
-      const SparseProgram gradient = codegen::gradients(value, states);
-      validated::Integral integral{s.invariant_names[k], value, gradient.program, {}};
-      for (const auto& [state, output] : gradient.entries) integral.states.push_back(state);
-      integrals_.push_back(std::move(integral));
-    }
-  }
-
-  /// \param box  a column: x, and then T.
-  /// \param with_derivatives  whether these are wanted.
-  /// \throws NotProved
-  Image operator()(const BallMatrix& box, bool with_derivatives, double seconds) const {
-    std::vector<validated::ArbBall> start;
-    std::vector<validated::MidRad> wide;
-    for (std::size_t i = 0; i < n_; ++i) add(box.at(i), start, wide);
-    BallMatrix range(1, 1);
-    for (const auto& [symbol, interval] : ranges_) {
-      set_interval(range.at(0), interval);
-      add(range.at(0), start, wide);
-    }
-    validated::ArbBall time;
-    arb_set(time.raw(), box.at(n_));
-    validated::FlowMapSettings settings;
-    settings.give_up = time_limit(seconds);
-    validated::FlowMap map(flow_, integrals_, settings);
-    if (!map.find(start, wide, validated::outwards(time), with_derivatives))
-      throw NotProved{fmt::format("its orbit is not enclosed to the end: {}", map.reason())};
-    // Else that start and end are on one level would be nothing to conclude from.
-    if (map.result().not_kept)
-      throw NotProved{
-          "a function of the level is not certain to be smooth along its orbit: its value may "
-          "jump"};
-    Image image{BallMatrix(n_, 1), BallMatrix(n_, n_ + 1)};
-    for (std::size_t i = 0; i < n_; ++i) {
-      set(image.state.at(i), map.result().states[i]);
-      for (std::size_t j = 0; j < n_ && with_derivatives; ++j)
-        set(image.derivatives.at(i, j), map.result().derivatives(i, j));
-      set(image.derivatives.at(i, n_), map.result().rates[i]);
-    }
-    return image;
-  }
-
- private:
-  static void add(arb_srcptr ball, std::vector<validated::ArbBall>& start,
-                  std::vector<validated::MidRad>& wide) {
-    validated::ArbBall middle, off;
-    arb_get_mid_arb(middle.raw(), ball);
-    arb_get_rad_arb(off.raw(), ball);
-    start.push_back(middle);
-    const bool is_point = arb_is_zero(off.raw()) != 0;
-    wide.push_back(is_point ? validated::MidRad() : validated::symmetric(validated::outwards(off)));
-  }
-  static void set(arb_ptr ball, const validated::MidRad& value) {
-    const validated::ArbBall exact(value);
-    arb_set(ball, exact.raw());
-  }
-
-  std::size_t n_;
-  Intervals ranges_;
-  validated::FlowProgram flow_;
-  std::vector<validated::Integral> integrals_;
-};
 
 /// The double, and what is near it.
 void set_near(arb_ptr ball, double value) {
@@ -190,7 +72,7 @@ class Prover {
       }
       for (const double radius : {1e-10, 1e-8, 1e-7}) {
         const BallMatrix box = widened(z, radius * size);
-        const Image image = flow_(box, true, seconds_);
+        const BoxImage image = flow_(box, true, seconds_);
         const BallMatrix solution = krawczyk(z, y, at, derivatives(box, image), box);
         if (inside(solution, box)) return checked(box, solution, image);
       }
@@ -202,7 +84,7 @@ class Prover {
  private:
   /// One step of Newton's method. \return  an approximate inverse of the derivatives before it.
   BallMatrix polished(BallMatrix& z, bool is_first) {
-    const Image image = flow_(z, true, seconds_);
+    const BoxImage image = flow_(z, true, seconds_);
     if (is_first) choose_closing(z);
     BallMatrix y(z.rows(), z.rows());
     if (arb_mat_approx_inv(y.raw(), derivatives(z, image).middle().raw(), kBallBits) == 0)
@@ -239,7 +121,7 @@ class Prover {
         mag_clear(eighth);
         arb_union(box.at(i), box.at(i), z.at(i), kBallBits);
       }
-      const Image image = flow_(box, true, seconds_);
+      const BoxImage image = flow_(box, true, seconds_);
       const BallMatrix solution = krawczyk(z, y, at, derivatives(box, image), box);
       if (inside(solution, box)) return checked(box, solution, image);
       box = solution;
@@ -249,7 +131,8 @@ class Prover {
         "turns or ends in it"};
   }
 
-  ProvedCycle checked(const BallMatrix& box, const BallMatrix& solution, const Image& image) const {
+  ProvedCycle checked(const BallMatrix& box, const BallMatrix& solution,
+                      const BoxImage& image) const {
     check_closed(box, image);
     check_leaf(box);
     return described(solution, image);
@@ -317,7 +200,7 @@ class Prover {
   std::size_t closings() const { return states() - levels(); }
 
   /// Plane, levels, and the differences that close it.
-  BallMatrix value(const BallMatrix& z, const Image& image) const {
+  BallMatrix value(const BallMatrix& z, const BoxImage& image) const {
     BallMatrix result(states() + 1, 1);
     const BallMatrix x = z.rows_of(0, states());
     arb_set(result.at(0), plane_(x).at(0));
@@ -341,7 +224,7 @@ class Prover {
     plane_(box);
   }
 
-  BallMatrix derivatives(const BallMatrix& z, const Image& image) const {
+  BallMatrix derivatives(const BallMatrix& z, const BoxImage& image) const {
     const std::size_t n = states();
     BallMatrix result(n + 1, n + 1);
     const BallMatrix x = z.rows_of(0, n);
@@ -362,7 +245,7 @@ class Prover {
 
   /// The other coordinates agree too: the derivatives of the levels by them are regular over the
   /// hull of start and end.
-  void check_closed(const BallMatrix& box, const Image& image) const {
+  void check_closed(const BallMatrix& box, const BoxImage& image) const {
     BallMatrix hull(states(), 1);
     for (std::size_t i = 0; i < states(); ++i)
       arb_union(hull.at(i), box.at(i), image.state.at(i), kBallBits);
@@ -403,7 +286,7 @@ class Prover {
     return static_cast<std::size_t>(row);
   }
 
-  ProvedCycle described(const BallMatrix& solution, const Image& image) const {
+  ProvedCycle described(const BallMatrix& solution, const BoxImage& image) const {
     ProvedCycle result;
     result.proved = true;
     for (std::size_t i = 0; i <= states(); ++i) {
