@@ -21,7 +21,9 @@ namespace {
 
 /// Okabe and Ito's colours that are dark enough beside the grey of chaos.
 constexpr const char* kInks[] = {"#0072b2", "#d55e00", "#009e73", "#882255", "#000000", "#b07000"};
-constexpr const char *kChaos = "#909090", *kUnknown = "#d0d0d0";
+constexpr const char* kChaos = "#909090";
+/// Open circles, which can be told from grey dots.
+constexpr const char* kUnknown = "pt 6 ps 0.7 lc rgb '#707070'";
 const double kPi = std::acos(-1.);
 
 bool is_angle(const PlottedFunction& function) { return function.period > 0; }
@@ -173,17 +175,14 @@ void add_coloured_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbit
     else
       grey += drawing.places(orbits[i].places);
   }
-  drawing.add(grey, fmt::format("{} lc rgb '{}'", style, kUnknown), "");
+  drawing.add(grey, fmt::format("{} lc rgb '{}'", style, kChaos), "");
   drawing.add_coloured(coloured, style);
   if (!coloured.empty()) drawing.scale(colours.what);
-  if (!grey.empty()) drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kUnknown), "not known");
+  if (!grey.empty()) drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kChaos), "not known");
 }
 
 void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits, const Print& print) {
   const double size = point_size(orbits);
-  const auto points = [&](const char* colour) {
-    return fmt::format("pt 7 ps {:.3f} lc rgb '{}'", 0.75 * size, colour);
-  };
   std::string chaos, unknown;
   for (const OrbitReport& orbit : orbits) {
     if (!orbit.judged)
@@ -191,8 +190,8 @@ void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits, const 
     else if (orbit.chaotic)
       chaos += drawing.places(orbit.places);
   }
-  drawing.add(unknown, points(kUnknown), "");
-  drawing.add(chaos, points(kChaos), "");
+  drawing.add(unknown, kUnknown, "");
+  drawing.add(chaos, fmt::format("pt 7 ps {:.3f} lc rgb '{}'", 0.75 * size, kChaos), "");
   std::size_t colour = 0;
   for (const OrbitReport& orbit : orbits) {
     if (orbit.chaotic || !orbit.judged) continue;
@@ -201,12 +200,12 @@ void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits, const 
                             ink(print, kInks[colour++ % std::size(kInks)])),
                 "");
   }
-  const auto explain = [&](bool is_there, const std::string& ink_of, const char* words) {
-    if (is_there) drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", ink_of), words);
+  const auto dot = [](const std::string& ink_of) {
+    return fmt::format("pt 7 ps 0.8 lc rgb '{}'", ink_of);
   };
-  explain(colour > 0, ink(print, kInks[0]), "regular orbits");
-  explain(!chaos.empty(), kChaos, "chaotic orbits");
-  explain(!unknown.empty(), kUnknown, "not known");
+  if (colour > 0) drawing.explain(dot(ink(print, kInks[0])), "regular orbits");
+  if (!chaos.empty()) drawing.explain(dot(kChaos), "chaotic orbits");
+  if (!unknown.empty()) drawing.explain(kUnknown, "not known");
 }
 
 void add_cycles(Drawing& drawing, const std::vector<Cycle>& cycles) {
