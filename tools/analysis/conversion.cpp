@@ -122,7 +122,8 @@ ConvertedState Conversion::assessed(std::vector<double> state) const {
     state = std::move(next);
   }
   ConvertedState result{.state = std::move(state), .undetermined = {}};
-  result.growth = total.cwiseAbs().rowwise().sum().maxCoeff();
+  // The largest of numbers among which one is none is not for Eigen to say.
+  result.growth = total.allFinite() ? total.cwiseAbs().rowwise().sum().maxCoeff() : std::nan("");
   // In units of each column, so that rounding makes nothing of nothing.
   constexpr double kRounding = 1e-9;
   for (Eigen::Index i = 0; i < open.rows(); ++i)

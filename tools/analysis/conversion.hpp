@@ -14,7 +14,7 @@ namespace casimir {
 struct ConvertedState {
   std::vector<double> state;
   /// The largest sum of absolute derivatives of a new variable by the old ones: about so much
-  /// larger is the error of the new ones.
+  /// larger is the error of the new ones. No number where a derivative has no value.
   double growth = 1;
   /// New variables that the old ones do not determine, since the map from the new ones to the old
   /// ones forgets them, as (M, g) the precession of a top: theirs is one value of many, and what

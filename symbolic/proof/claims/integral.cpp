@@ -22,9 +22,12 @@ Residual rate_of(Prover& prover, const NamedExpression& f) {
 /// a motion that crosses it finds another value there.
 bool has_angle(const GiNaC::ex& value) {
   return std::any_of(value.preorder_begin(), value.preorder_end(), [](const GiNaC::ex& part) {
-    return GiNaC::is_a<GiNaC::function>(part) &&
-           GiNaC::ex_to<GiNaC::function>(part).get_name() == "atan2" &&
-           !GiNaC::is_a<GiNaC::numeric>(part.op(0)) && !GiNaC::is_a<GiNaC::numeric>(part.op(1));
+    if (!GiNaC::is_a<GiNaC::function>(part) ||
+        GiNaC::ex_to<GiNaC::function>(part).get_name() != "atan2")
+      return false;
+    // Of a fixed y other than 0, or a fixed x > 0, the half line y = 0, x < 0 is not met.
+    const bool is_beside = GiNaC::is_a<GiNaC::numeric>(part.op(0)) && !part.op(0).is_zero();
+    return !is_beside && !part.op(1).info(GiNaC::info_flags::positive);
   });
 }
 
@@ -78,8 +81,9 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
               decide_on_invariant_level(prover, own, {rate_of(prover, f)}, f, level);
             });
             if (proof.verdict == Verdict::proved && has_angle(f.value))
-              proof.evidence += (proof.evidence.empty() ? "" : "; ") +
-                                std::string("between the jumps of atan2, at its cut");
+              proof.evidence +=
+                  (proof.evidence.empty() ? "" : "; ") +
+                  std::string("constant between the jumps that atan2 makes at its cut");
           },
           names_of(on),
           values_of(on, f),
