@@ -491,5 +491,20 @@ TEST(Maps, LeadWhereTheyAreSaidToLeadAlsoWithoutAnInverse) {
   EXPECT_EQ(map("constraints = [\"q - p\"]\n", "u - v").verdict, Verdict::proved);
 }
 
+/// z - arg(x + i y) has no derivative along the motion, and jumps by 2 Pi in each turn.
+TEST(Pieces, AnIntegralWithAnAngleIsSaidToJump) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = \"-y\"\ny = \"x\"\n"
+      "z = \"1\"\n");
+  const auto evidence = [&](const std::string& f) {
+    const Proof proof = prove_claim(model, ClaimKind::integral, model.parse_named({f, {}, {}}));
+    EXPECT_EQ(proof.verdict, Verdict::proved) << f;
+    return proof.evidence;
+  };
+  EXPECT_NE(evidence("z - atan2(y, x)").find("jumps"), std::string::npos);
+  EXPECT_EQ(evidence("atan2(x^2 + y^2, 2)").find("jumps"), std::string::npos);
+  EXPECT_EQ(evidence("atan2(3, x^2 + y^2)").find("jumps"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace casimir::test
