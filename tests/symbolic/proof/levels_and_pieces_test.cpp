@@ -497,7 +497,8 @@ TEST(Pieces, AnIntegralWithAnAngleIsSaidToJump) {
       "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = \"-y\"\ny = \"x\"\n"
       "z = \"1\"\n");
   const auto evidence = [&](const std::string& f) {
-    const Proof proof = prove_claim(model, ClaimKind::integral, model.parse_named({f, {}, {}}));
+    const Proof proof =
+        prove_claim(model, casimir::ClaimKind::integral, model.parse_named({f, {}, {}}));
     EXPECT_EQ(proof.verdict, Verdict::proved) << f;
     return proof.evidence;
   };
