@@ -55,6 +55,10 @@ struct Settings {
   std::function<void(double t, const double* changes)> invariant_changes = {};
   /// If set and monitored, shown the state after each step.
   std::function<void(double t, const double* x)> watch = {};
+  /// As `watch`, but shown the step as a whole: `state_at` writes the state at a time within it.
+  std::function<void(double t, const double* x,
+                     const std::function<void(double t, double* x)>& state_at)>
+      watch_within = {};
   /// If set, shown the state and its carry at the end of each step, which it may change, before the
   /// step is accepted: see Projector. For our own methods only.
   std::function<void(double t, double* x, double* carry)> project = {};

@@ -7,6 +7,7 @@
 
 #include "runtime/digits/precise_branch.hpp"
 #include "runtime/digits/precise_step.hpp"
+#include "runtime/digits/root_zeros.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/program/angle_branches.hpp"
 #include "runtime/program/interpreter.hpp"
@@ -74,6 +75,7 @@ class Runner {
     if (problem.from_other_side) move_to_other_side();
     parameters_.assign(middle, start.end() - 1);
     look_.emplace(*problem.rhs, state_, parameters_);
+    roots_.emplace(*problem.rhs, doubles(parameters_));
     end_ = problem.end ? BigFloat(*problem.end) : start.back();
     if (problem.mark) mark_ = BigFloat(*problem.mark);
     run_.digits = digits;
@@ -208,6 +210,7 @@ class Runner {
       }
       last = last && h == tried;
     }
+    if (meets_zero_of_root(series, h)) return;
     const BigFloat next = last ? end_ : time_ + h;
     record_samples(series, next);
     if (mark_ && !passed(time_, *mark_) && !passed(*mark_, next))
@@ -218,6 +221,23 @@ class Runner {
     ++run_.steps;
     record_sizes();
     follow_invariants();
+  }
+
+  /// Whether the motion need not be the only one behind a place in this step.
+  bool meets_zero_of_root(const std::vector<LongSeries>& series, const BigFloat& h) {
+    if (!roots_->any()) return false;
+    const auto zero = roots_->zero_in([&](double part, double* x) {
+      BigFloat after;
+      arf_set_d(after.mid(), part);
+      after = after * h;
+      for (const LongSeries& s : series) *x++ = double_of(value_at(s, after));
+      return double_of(time_ + after);
+    });
+    if (!zero) return false;
+    stop(Status::singularity,
+         "what a root is taken of comes to zero in the next step, where the equations are not "
+         "Lipschitz continuous: more than one solution may go on from there");
+    return true;
   }
 
   /// Whether the series has the derivative that the equations ask for: at the end of the step, and
@@ -360,6 +380,7 @@ class Runner {
   cln::float_format_t format_;
   std::vector<BigFloat> state_, parameters_, initial_, final_, changes_;
   std::optional<PreciseLook> look_;
+  std::optional<RootZeros> roots_;
   std::optional<AngleFollower> angles_;  ///< of the invariants, if they have any
   BigFloat time_, end_;
   std::optional<BigFloat> mark_, predicted_;

@@ -150,6 +150,7 @@ bool Observer::step(double t1, const double* x1,
     if (angles_) angles_->advance(t1, x1, state_at);
     record_change(t1, x1);
     if (settings_.watch) settings_.watch(t1, x1);
+    if (settings_.watch_within) settings_.watch_within(t1, x1, state_at);
   }
   if (settings_.monitor && std::has_single_bit(++steps_)) record_terms(t1, x1);
   if (settings_.sample_every > 0) {

@@ -421,5 +421,25 @@ TEST(PreciseRun, ABranchThatMoreDigitsDoNotShowIsRefused) {
   EXPECT_EQ(agreed_digits(agreed.run.state[0], cln::cl_float(1, cln::float_format(40)), 30), 30);
 }
 
+/// The series of (t - 1)^3 has no singularity where the equations are no longer Lipschitz
+/// continuous; x = 0 from there on is a solution as well.
+TEST(PreciseRun, EndsWhereARootMakesSolutionsPart) {
+  const auto run = [](const cln::cl_RA& more, const cln::cl_RA& exponent) {
+    Builder b({"x", "y"});
+    const int squares = b.op(Op::add, b.op(Op::mul, 0, 0), b.op(Op::mul, 1, 1));
+    const int radicand = b.op(Op::add, squares, b.number(more));
+    b.output(b.op(Op::mul, b.number(3), b.op(Op::pow, radicand, b.number(exponent))));
+    b.output(b.number(0));
+    const Program program = b.program();
+    return agreed_run(problem(program, {-1, 0, 2}), 30).run;
+  };
+  const PreciseRun parts = run(0, cln::cl_RA("1/3"));
+  EXPECT_EQ(parts.status, Status::singularity);
+  EXPECT_NE(parts.reason.find("more than one solution"), std::string::npos) << parts.reason;
+  EXPECT_LE(cln::double_approx(parts.time), 1);
+  EXPECT_EQ(run(cln::cl_RA("1/1000000"), cln::cl_RA("1/3")).status, Status::ok);
+  EXPECT_EQ(run(1, cln::cl_RA("2/3")).status, Status::ok);
+}
+
 }  // namespace
 }  // namespace casimir::test

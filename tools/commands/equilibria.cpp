@@ -9,6 +9,7 @@
 
 #include "tools/analysis/equilibria/equilibria.hpp"
 #include "tools/analysis/equilibria/validated_equilibria.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
@@ -31,6 +32,7 @@ struct EquilibriaAnswer {
   EquilibriumReport report;
   std::vector<ProvedEquilibrium> proofs;  ///< one for each, or none
   std::string ranges;                     ///< of parameters that the proofs are for, or empty
+  std::string warning = {};               ///< of parts that are not looked at, or empty
 
   const ProvedEquilibrium* proof(std::size_t k) const {
     return proofs.empty() ? nullptr : &proofs[k];
@@ -72,6 +74,7 @@ nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene,
                               {"starts", report.starts},
                               {"seconds", seconds}};
   if (!answer.ranges.empty()) json["for_every"] = answer.ranges;
+  if (!answer.warning.empty()) json["warnings"] = {answer.warning};
   for (std::size_t k = 0; k < report.equilibria.size(); ++k) {
     const Equilibrium& e = report.equilibria[k];
     nlohmann::ordered_json own{{"kind", e.velocities.empty() ? "equilibrium" : "relative"},
@@ -173,6 +176,7 @@ void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAn
   fmt::print("{} found from {} random starts, which does not exclude others; {:.3f} s\n",
              report.equilibria.size(), report.starts, seconds);
   if (!answer.proofs.empty()) fmt::print("{} of them proved to exist\n", answer.proved());
+  if (!answer.warning.empty()) fmt::print("warning: {}\n", answer.warning);
 }
 
 int equilibria(const EquilibriaArguments& options) {
@@ -190,6 +194,7 @@ int equilibria(const EquilibriaArguments& options) {
     watch.watch().begin("equilibria");
     EquilibriaAnswer answer{
         find_equilibria(model, scene, watch.watch().tick), {}, ranges_text(given)};
+    answer.warning = unwatched_parts(model, scene);
     if (options.validated) answer.proofs = enclose_equilibria(model, scene, answer.report, ranges);
     take_proved(answer.proofs, answer.report);
     const double seconds = watch.end();

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "tools/analysis/certificate/certificate_file.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/section/orbit_rotation.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
@@ -176,6 +177,9 @@ class SectionCommand {
   }
 
   void warn_of_orbits(SectionReport& report) const {
+    if (std::string parts = unwatched_parts(model_, model_.scene(options_.common.scene));
+        !parts.empty())
+      report.warnings.push_back(std::move(parts));
     if (problem_.leaf > 4)
       report.warnings.push_back(fmt::format(
           "the level has {} degrees of freedom: the picture is a projection of a section of {} "

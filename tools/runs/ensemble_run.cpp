@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "tools/analysis/estimate/cancelled_parts.hpp"
+#include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/cli/case_library.hpp"
@@ -283,6 +284,9 @@ int integrate_ensemble(const EnsembleRequest& request) {
   const std::vector<CheckedMember> checked = check_members(run, method, settings, ensemble, result);
   std::vector<std::string> warnings =
       warnings_on(kernel, run, settings, checked, unwatched_parts(model, scene));
+  for (std::string& sentence :
+       doubts_of_members(model, run.specialisation.invariant_names, result, settings.rtol))
+    warnings.push_back(std::move(sentence));
   if (!off_constraints.empty()) warnings.insert(warnings.begin(), off_constraints);
   const EnsembleReport report{run, method, settings, kernel, result, checked, warnings};
   if (!request.output.empty()) write_table(request.output, table_of(report));

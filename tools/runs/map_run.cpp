@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/run/iterate.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
@@ -35,10 +36,13 @@ Table table_of(const MapModel& map, const Scene& scene, const Iterated& run) {
   return table;
 }
 
-std::optional<std::string> warning_of(const Iterated& run) {
-  if (!run.error_estimate || *run.error_estimate < kSpoiledOrbit) return std::nullopt;
-  return "rounding has grown to the size of the state: the last state is that of no orbit that "
-         "begins where the scene does";
+std::vector<std::string> warnings_of(const MapModel& map, const Iterated& run) {
+  std::vector<std::string> warnings = doubts_of_orbit(map, run);
+  if (run.error_estimate && *run.error_estimate >= kSpoiledOrbit)
+    warnings.emplace_back(
+        "rounding has grown to the size of the state: the last state is that of no orbit that "
+        "begins where the scene does");
+  return warnings;
 }
 
 nlohmann::ordered_json to_json(const MapModel& map, const Scene& scene, const Iterated& run) {
@@ -65,8 +69,7 @@ nlohmann::ordered_json to_json(const MapModel& map, const Scene& scene, const It
                      {"integrate", run.seconds}};
   json["from_cache"] = run.from_cache;
   json["left_out"] = nlohmann::ordered_json::array();
-  json["warnings"] = nlohmann::ordered_json::array();
-  if (const auto warning = warning_of(run)) json["warnings"].push_back(*warning);
+  json["warnings"] = warnings_of(map, run);
   if (run.error_estimate)
     json["trust"] = {{"error_estimate", *run.error_estimate},
                      {"beyond_double", *run.error_estimate >= kSpoiledOrbit}};
@@ -84,7 +87,7 @@ void print(const MapModel& map, const Scene& scene, const Iterated& run) {
     fmt::print("  {:<10} {:>25}   drift {:.1e}\n", invariant.name, exact_text(invariant.final),
                invariant.drift);
   if (run.error_estimate) fmt::print("  error of the state about {:.0e}\n", *run.error_estimate);
-  if (const auto warning = warning_of(run)) fmt::print("  warning: {}\n", *warning);
+  for (const std::string& warning : warnings_of(map, run)) fmt::print("  warning: {}\n", warning);
 }
 
 }  // namespace
@@ -118,9 +121,9 @@ int iterate_map(const MapRunRequest& request) {
   for (std::size_t i = 0; i < run.names.size(); ++i)
     state += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", run.names[i], run.state[i]);
   std::cout.flush();
-  std::cerr << fmt::format(
-      "casimir: error: the iteration stopped after step {}: {}\n  state: {}\n", run.steps,
-      run.finite ? "the time limit was reached" : "the next state is not finite", state);
+  std::cerr << fmt::format("casimir: error: the iteration stopped after step {}: {}\n  state: {}\n",
+                           run.steps, run.finite ? "the time limit was reached" : run.reason,
+                           state);
   return run.finite ? kEnvironment : kNotContinued;
 }
 

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "symbolic/case/limits.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/section/map_orbits.hpp"
 #include "tools/analysis/section/orbit_rotation.hpp"
 #include "tools/cli/case_library.hpp"
@@ -81,14 +82,16 @@ class MapSection {
     const Stopwatch watch;
     Progress progress(!request_.common.quiet);
     progress.begin(map_.base.name + ": orbits");
+    if (std::string parts = unwatched_parts(map_.as_field(), scene_); !parts.empty())
+      warnings_.push_back(std::move(parts));
     const auto seeds =
         request_.seeds.empty()
             ? orbits_.spread(request_.orbits, request_.points)
             : map_seeds(request_.seeds, orbits_.specialisation().states, map_.base.limits);
     if (request_.seeds.empty() && seeds.size() < request_.orbits)
-      warning_ =
+      warnings_.push_back(
           fmt::format("only {} of {} starts about the scene's orbit have orbits that stay near it",
-                      seeds.size(), request_.orbits);
+                      seeds.size(), request_.orbits));
     for (std::size_t k = 0; k < seeds.size() && !orbits_.interrupted(); ++k) {
       reports_.push_back(orbits_.orbit(seeds[k], request_.points));
       progress.show(static_cast<double>(k + 1) / static_cast<double>(seeds.size()));
@@ -147,8 +150,7 @@ class MapSection {
         {"chaotic", count(true)},
         {"seconds", {{"compile", orbits_.step().seconds}, {"integrate", seconds_}}},
         {"from_cache", orbits_.step().from_cache},
-        {"warnings", nlohmann::ordered_json::array()}};
-    if (!warning_.empty()) json["warnings"].push_back(warning_);
+        {"warnings", warnings_}};
     for (std::size_t k = 0; k < reports_.size(); ++k) {
       const OrbitReport& orbit = reports_[k];
       nlohmann::ordered_json one{{"orbit", k + 1},
@@ -180,7 +182,7 @@ class MapSection {
                count(false), count(true),
                unknown > 0 ? fmt::format(", {} too short to tell", unknown) : "");
     if (!rotations_.empty()) print_rotations(rotations_);
-    if (!warning_.empty()) fmt::print("  warning: {}\n", warning_);
+    for (const std::string& warning : warnings_) fmt::print("  warning: {}\n", warning);
   }
 
   /// Tables first: pictures need a program that may be missing.
@@ -225,7 +227,7 @@ class MapSection {
   std::vector<OrbitReport> reports_;
   std::vector<Rotation> rotations_;  ///< one for each, or none
   double seconds_ = 0;
-  std::string warning_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace

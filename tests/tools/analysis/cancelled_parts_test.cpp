@@ -7,6 +7,7 @@
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
+#include "tools/analysis/run/conservation.hpp"
 #include "tools/analysis/run/validated.hpp"
 #include "tools/analysis/solve.hpp"
 
@@ -97,6 +98,37 @@ TEST(CancelledParts, OfAHamiltonianAreThoseThatItsDerivativesLoseToo) {
                                         "parameters = { a = \"2\" }\n")));
   const Model even = of_hamiltonian("q^4/q^2");
   EXPECT_EQ(solve(even, even.scene("default"), {}).trajectory().status, Status::singularity);
+}
+
+/// Within one step of a Taylor series, that ends where the part has a value again.
+TEST(CancelledParts, AreLookedAtWithinSteps) {
+  // y = 1 - t comes to 1/2 at t = 1/2, and to -1/2 at 3/2.
+  const Model model = model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\n"
+      "x = \"sqrt(y^2 - 1/4)^2\"\ny = \"-1\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { x = \"0\", y = \"1\" }\nduration = \"2\"\n");
+  const Solution motion = solve(model, model.scene("default"), {});
+  EXPECT_EQ(motion.trajectory().status, Status::singularity);
+  EXPECT_LT(motion.trajectory().time, 0.5 + 1e-9);
+  EXPECT_GT(motion.trajectory().time, 0.3);
+  const Conservation kept =
+      conserve(model, model.scene("default"), *find_method("taylor"), {.run = {}, .code = {}});
+  EXPECT_EQ(kept.row.status, Status::singularity);
+  EXPECT_TRUE(kept.row.failed);
+}
+
+/// A dip of 10^-4 below zero, of a width of 0.02 in a step of the length 2.
+TEST(CancelledParts, AreLookedAtWhereTheyComeNearestToTheirEnd) {
+  const auto status = [](const char* radicand) {
+    const Model model = model_of(
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"sqrt(" +
+        std::string(radicand) +
+        ")^2\"\ny = \"-1\"\n[[scene]]\nname = \"default\"\n"
+        "initial = { x = \"0\", y = \"1\" }\nduration = \"2\"\n");
+    return solve(model, model.scene("default"), {}).trajectory().status;
+  };
+  EXPECT_EQ(status("(y - 1/7)^2 - 1/10000"), Status::singularity);
+  EXPECT_EQ(status("(y - 1/7)^2 + 1/10000"), Status::ok);
 }
 
 /// Poles of polynomials over the real numbers, which GiNaC does not factor.

@@ -70,6 +70,21 @@ TEST(EnsembleFile, MembersObeyTheAssumptionsAndAreNamedOffTheConstraints) {
   EXPECT_EQ(warnings("g1,g2,g3\n1,0,0\n0,3/5,4/5\n").find("constraint"), std::string::npos);
 }
 
+/// A declared integral that changes is no fault of the members: it is none.
+TEST(EnsembleFile, AnIntegralThatIsRefutedIsNamed) {
+  const Folder folder;
+  write(folder, "turn.toml",
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"y\"\n"
+        "y = \"-x\"\n[[integral]]\nname = \"E\"\nexpression = \"x^2 + y^2\"\n[[integral]]\n"
+        "name = \"K\"\nexpression = \"x*y\"\n[[scene]]\nname = \"default\"\n"
+        "initial = { x = \"1\", y = \"1/2\" }\nduration = \"1\"\n");
+  const Outcome outcome = members(folder, "x\n1\n2\n", {"integrate", "./turn.toml", "--json"});
+  const std::string warnings = outcome.json().at("warnings").dump();
+  EXPECT_NE(warnings.find("K changes by"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("it is refuted to be an integral"), std::string::npos) << warnings;
+  EXPECT_EQ(warnings.find("E changes by"), std::string::npos) << warnings;
+}
+
 /// A level of small terms is as sharp as any; the rounding of a direction is no fault.
 TEST(EnsembleFile, ConstraintsAreHeldBesideTheirTerms) {
   const Folder folder;

@@ -314,6 +314,34 @@ TEST(MapCommands, MoserVeselovIsAMethod) {
   EXPECT_TRUE(has(refused.err, "free rigid body")) << refused.err;
 }
 
+/// A declared integral that changes is no fault of the orbit: it is none.
+TEST(MapCommands, AnIntegralThatIsRefutedIsNamed) {
+  const Folder folder;
+  write(folder, "turn.toml",
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"y\"\n"
+        "y = \"-x\"\n[[integral]]\nname = \"E\"\nexpression = \"x^2 + y^2\"\n[[integral]]\n"
+        "name = \"K\"\nexpression = \"x*y\"\n[[scene]]\nname = \"default\"\n"
+        "initial = { x = \"1\", y = \"1/2\" }\nduration = \"7\"\n");
+  const std::string warnings =
+      run_in(folder, {"integrate", "./turn.toml", "--json"}).json().at("warnings").dump();
+  EXPECT_TRUE(has(warnings, "K changes by 2.0e+00 of its size, and it is refuted")) << warnings;
+  EXPECT_FALSE(has(warnings, "E changes")) << warnings;
+}
+
+/// sqrt(x)^2 is x for x that are not negative; the orbit ends at the first other one.
+TEST(MapCommands, WhatTheMapWasWrittenWithHasValues) {
+  const Folder folder;
+  write(folder, "down.toml",
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x - 1\"\n"
+        "y = \"sqrt(x)^2\"\n[[scene]]\nname = \"default\"\n"
+        "initial = { x = \"3\", y = \"0\" }\nduration = \"7\"\n");
+  const Outcome ended = run_in(folder, {"integrate", "./down.toml", "--json"});
+  EXPECT_NE(ended.status, 0);
+  EXPECT_EQ(ended.json().at("status"), "non_finite");
+  EXPECT_EQ(ended.json().at("steps"), 4);
+  EXPECT_TRUE(has(ended.err, "sqrt(x), which the map was written with, has no value")) << ended.err;
+}
+
 // x -> 4 x (1 - x) is sin(u)^2 -> sin(2 u)^2.
 TEST(MapCommands, RoundingOfAnOrbitIsEstimated) {
   const Folder folder;

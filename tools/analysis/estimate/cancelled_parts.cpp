@@ -7,6 +7,7 @@
 #include <set>
 
 #include "codegen/program_of.hpp"
+#include "runtime/step/between_places.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/arbitrary.hpp"
@@ -140,6 +141,17 @@ bool is_root_of_squares(const ex& part) {
          is_sum_of_squares(part.op(0));
 }
 
+/// The functions that are negative where a part has no value: those of roots, logarithms and arcs.
+std::vector<ex> bounds_of(const ex& part) {
+  if (GiNaC::is_a<GiNaC::power>(part) && !part.op(1).info(GiNaC::info_flags::integer))
+    return {part.op(0)};
+  if (!GiNaC::is_exactly_a<GiNaC::function>(part)) return {};
+  const std::string name = GiNaC::ex_to<GiNaC::function>(part).get_name();
+  if (name == "log") return {part.op(0)};
+  if (name == "asin" || name == "acos") return {1 - part.op(0), 1 + part.op(0)};
+  return {};
+}
+
 /// The polynomials whose changes of sign are poles of a part that doubles may step over; none where
 /// it is no pole of a polynomial.
 std::vector<ex> zeros_of_pole(const ex& part, const std::vector<GiNaC::symbol>& symbols) {
@@ -222,18 +234,20 @@ CancelledParts::CancelledParts(const Model& model, const PreparedScene& run)
     };
     if (has_any(part, model.parameters) || std::ranges::any_of(model.variables, is_left_out))
       continue;
-    const auto watch = [&](const ex& function, bool is_zero) {
+    const auto watch = [&](const ex& function, Shown how) {
       parts.push_back(function);
-      changes_sign_.push_back(is_zero);
+      shown_.push_back(how);
       texts_.push_back(printable(expression_text(part), 80));
     };
-    watch(part, false);
-    for (const ex& zero : zeros_of_pole(part, symbols)) watch(zero, true);
+    watch(part, Shown::by_value);
+    for (const ex& zero : zeros_of_pole(part, symbols)) watch(zero, Shown::by_sign);
+    for (const ex& bound : bounds_of(part)) watch(bound, Shown::below_zero);
   }
   if (parts.empty()) return;
   values_.emplace(program_of(parts, symbols));
   inputs_.resize(symbols.size());
   now_.resize(parts.size());
+  within_.resize(s.states.size());
   for (const std::string& name : s.states)
     places_.push_back(static_cast<std::size_t>(
         std::ranges::find(symbols, name, [](const auto& x) { return x.get_name(); }) -
@@ -242,14 +256,61 @@ CancelledParts::CancelledParts(const Model& model, const PreparedScene& run)
   see(0, run.initial.data());
 }
 
-bool CancelledParts::see(double t, const double* x) {
-  if (lost_) return false;
+void CancelledParts::evaluate(double t, const double* x, std::vector<double>& values) {
   for (std::size_t i = 0; i < places_.size(); ++i) inputs_[places_[i]] = x[i];
   if (has_time_) inputs_.back() = t;
-  (*values_)(inputs_.data(), now_.data());
+  (*values_)(inputs_.data(), values.data());
+}
+
+/// Times within a step at which to look. A function that has turned between three of them is looked
+/// at where the parabola through these says that it comes nearest to zero.
+std::vector<double> CancelledParts::places_within(
+    double t, const std::function<void(double t, double* x)>& state_at) {
+  constexpr std::size_t kPlaces = 17;
+  std::vector<double> times;
+  std::vector<std::vector<double>> sampled(shown_.size());
+  std::vector<double> values(shown_.size());
+  for (std::size_t i = 0; i <= kPlaces; ++i) {
+    times.push_back(time_ + (t - time_) * static_cast<double>(i) / kPlaces);
+    if (i > 0) {
+      state_at(times.back(), within_.data());
+      evaluate(times.back(), within_.data(), values);
+    }
+    for (std::size_t k = 0; k < values.size(); ++k)
+      sampled[k].push_back(i == 0 ? before_[k] : values[k]);
+  }
+  std::vector<double> places(times.begin() + 1, times.end() - 1);
+  // The places of `dip_at` are in their order.
+  const double direction = t < time_ ? -1 : 1;
+  std::vector<double> ordered;
+  for (const double time : times) ordered.push_back(direction * time);
+  for (std::size_t k = 0; k < shown_.size(); ++k)
+    for (std::size_t i = 0; shown_[k] != Shown::by_value && i + 2 < ordered.size(); ++i)
+      if (const auto dip = dip_at(ordered, sampled[k], i)) places.push_back(direction * dip->place);
+  std::ranges::sort(places, {}, [&](double place) { return direction * place; });
+  return places;
+}
+
+bool CancelledParts::see(double t, const double* x,
+                         const std::function<void(double t, double* x)>& state_at) {
+  if (lost_) return false;
+  if (!before_.empty()) {
+    for (const double place : places_within(t, state_at)) {
+      state_at(place, within_.data());
+      if (!see(place, within_.data())) return false;
+    }
+  }
+  return see(t, x);
+}
+
+bool CancelledParts::see(double t, const double* x) {
+  if (lost_) return false;
+  evaluate(t, x, now_);
   for (std::size_t k = 0; k < now_.size() && !lost_; ++k) {
-    const bool passed = changes_sign_[k] && !before_.empty() && now_[k] * before_[k] < 0;
-    if (!std::isfinite(now_[k]) || passed) lost_ = k;
+    const bool passed =
+        shown_[k] == Shown::by_sign && !are_apart_ && !before_.empty() && now_[k] * before_[k] < 0;
+    if (!std::isfinite(now_[k]) || passed || (shown_[k] == Shown::below_zero && now_[k] < 0))
+      lost_ = k;
   }
   if (lost_) {
     lost_time_ = t;
@@ -259,6 +320,14 @@ bool CancelledParts::see(double t, const double* x) {
   time_ = t;
   state_.assign(x, x + places_.size());
   return true;
+}
+
+void CancelledParts::watch(Settings& settings) {
+  if (!any()) return;
+  settings.watch_within = [this](double t, const double* x, const auto& state_at) {
+    see(t, x, state_at);
+  };
+  settings.give_up = [this, limit = settings.give_up] { return lost() || (limit && limit()); };
 }
 
 void CancelledParts::end(Trajectory& trajectory) const {

@@ -2,6 +2,7 @@
 
 #include <ginac/ginac.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ std::vector<GiNaC::ex> cancelled_parts(const Model& model, const Scene& binding)
 /// A warning that these are not watched, for runs that do not; empty where there are none.
 std::string unwatched_parts(const Model& model, const Scene& scene);
 
-/// Watches along a run in double precision that these parts have values.
+/// Watches along a run in double precision, or an orbit of a map, that these parts have values.
 class CancelledParts {
  public:
   /// Parts of which a variable is not integrated, or whose parameters have no known value, are not
@@ -39,18 +40,40 @@ class CancelledParts {
   bool any() const { return !texts_.empty(); }
   /// Looks at the state after a step: whether all parts still have a value.
   bool see(double t, const double* x);
+  /// The same all along the step: at places within it, and where a part comes nearest to having
+  /// none.
+  /// \param state_at  writes the state at a time within the step
+  bool see(double t, const double* x, const std::function<void(double t, double* x)>& state_at);
+  /// The states that are seen are those of a map: there is nothing between them.
+  void are_apart() { are_apart_ = true; }
+  /// Has a run that these settings are for watched, which ends where a part has no value; nothing
+  /// where there is nothing to watch. Borrowed by the settings.
+  void watch(Settings& settings);
   /// Whether one had none.
   bool lost() const { return lost_.has_value(); }
+  /// Which one, where one had none.
+  const std::string& lost_part() const { return texts_[*lost_]; }
   /// The run cut off at the last step at which all had values, as a singularity.
   void end(Trajectory& trajectory) const;
 
  private:
-  bool has_time_;
-  std::vector<std::string> texts_;
-  std::vector<bool> changes_sign_;  ///< of each function: it is lost where it does, as p of 1/p^2
+  /// How a function shows that a part has no value.
+  enum class Shown {
+    by_value,  ///< it has none itself
+    by_sign,   ///< it changes its sign, as p of 1/p^2
+    below_zero
+  };
+
+  void evaluate(double t, const double* x, std::vector<double>& values);
+  std::vector<double> places_within(double t,
+                                    const std::function<void(double t, double* x)>& state_at);
+
+  bool has_time_, are_apart_ = false;
+  std::vector<std::string> texts_;  ///< of the part that each function is of
+  std::vector<Shown> shown_;        ///< of each function
   std::optional<Interpreter> values_;
   std::vector<std::size_t> places_;  ///< among the inputs of `values_`, of each state
-  std::vector<double> inputs_, now_, before_;
+  std::vector<double> inputs_, now_, before_, within_;
   double time_ = 0;  ///< of the last step at which all had values
   std::vector<double> state_;
   std::optional<std::size_t> lost_;

@@ -194,16 +194,16 @@ class Judge {
     singular_.emplace(run_);
     parts_.emplace(model_, run_);
     Settings settings = result_.settings;
-    if (singular_->divides() || parts_->any() || smoothness)
+    if (singular_->divides() || smoothness)
       settings.watch = [&, smoothness](double t, const double* x) {
         singular_->see(t, x);
-        if (parts_->any()) parts_->see(t, x);
         if (smoothness) smoothness->see(t, x);
       };
-    if (smoothness || parts_->any() || singular_->divides())
+    parts_->watch(settings);
+    if (smoothness || singular_->divides())
       settings.give_up = [this, smoothness, limit = settings.give_up] {
-        return parts_->lost() || singular_->goes_to_and_fro() ||
-               (smoothness && !smoothness->finding().empty()) || (limit && limit());
+        return singular_->goes_to_and_fro() || (smoothness && !smoothness->finding().empty()) ||
+               (limit && limit());
       };
     const auto run = [&] {
       try {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/estimate/reference_state.hpp"
 
 namespace casimir {
@@ -38,10 +39,15 @@ void show_progress(Settings& settings, const ConservationOptions& options) {
   };
 }
 
-Trajectory trajectory_of(const PreparedScene& run, const Method& method, const Settings& settings) {
+Trajectory trajectory_of(const Model& model, const PreparedScene& run, const Method& method,
+                         Settings settings) {
+  CancelledParts parts(model, run);
+  parts.watch(settings);
   try {
-    return integrate(compile_for(run, method).module, method, settings, run.initial,
-                     run.parameters);
+    Trajectory trajectory =
+        integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
+    if (parts.lost()) parts.end(trajectory);
+    return trajectory;
   } catch (const std::invalid_argument& problem) {
     throw RequestError(problem.what());
   }
@@ -93,7 +99,8 @@ Conservation conserve(const Model& model, const Scene& scene, const Method& meth
     row.refused = true;
     return result;
   }
-  const Trajectory& trajectory = result.trajectory.emplace(trajectory_of(run, method, settings));
+  const Trajectory& trajectory =
+      result.trajectory.emplace(trajectory_of(model, run, method, settings));
   judge_conservation(row, trajectory, scene, options.bound);
   if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
     // A run with many digits for a state that nobody asked for may take minutes and gigabytes.

@@ -1,5 +1,7 @@
 #include "tools/analysis/run/iterate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/run/disturbed_map.hpp"
 
 namespace casimir {
@@ -155,10 +158,21 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
   start = IterationClock::now();
   std::vector<double> next(result.state.size());
   const auto& step = module.functions().rhs;
+  CancelledParts parts(model, run);
+  parts.are_apart();
   while (result.steps < steps) {
+    // Those that the next state was written with, in terms of this one.
+    if (parts.any() && !parts.see(static_cast<double>(result.steps), result.state.data())) {
+      result.finite = false;
+      result.reason = fmt::format(
+          "{}, which the map was written with, has no value; it cancels in what is computed",
+          parts.lost_part());
+      break;
+    }
     step(0, result.state.data(), run.parameters.data(), next.data());
     if (!is_finite(next)) {
       result.finite = false;
+      result.reason = "the next state is not finite";
       break;
     }
     std::swap(result.state, next);

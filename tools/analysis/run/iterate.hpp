@@ -14,7 +14,8 @@ namespace casimir {
 /// What came of iterating a map in double precision.
 struct Iterated {
   std::uint64_t steps = 0;  ///< that were done
-  bool finite = true;    ///< false: the next state is not finite, `state` is the last one that is
+  bool finite = true;    ///< false: there is no next state, `state` is the last one that there is
+  std::string reason;    ///< why not
   bool stopped = false;  ///< by `give_up`
   std::vector<std::string> names;
   std::vector<double> state;

@@ -262,6 +262,8 @@ class Iterates:
     drift: dict[str, float]  #: of each invariant
     seconds: float
     error_estimate: float | None  #: of the last state, relative, by rounding; None: not estimated
+    reason: str = ""  #: why there is no next state
+    warnings: list[str] = field(default_factory=list)  #: on integrals that change: sentences
 
     @property
     def success(self) -> bool:
@@ -644,7 +646,7 @@ class Ensemble:
     names: list[str]  #: of the columns of y
     seconds: float  #: of the integration alone
     jobs: int  #: threads that took part
-    warnings: list[str]  #: on members that are not on the constraints of the case
+    warnings: list[str]  #: on members that are not on the constraints, on integrals that change
 
     @property
     def success(self) -> bool:

@@ -12,6 +12,7 @@
 #include "symbolic/discrete/prove_map.hpp"
 #include "symbolic/discrete/search_map.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/run/iterate.hpp"
 #include "tools/analysis/scene_values.hpp"
 #include "tools/cli/case_library.hpp"
@@ -173,10 +174,13 @@ py::object iterated(const MapCase& self, const std::string& scene, std::uint64_t
   const std::function<bool()> late = time_limit(seconds);
   const auto run = [&] {
     const MapModel& map = self.map();
-    return iterate(map, map.base.scene(scene), steps, every,
-                   [&] { return interrupt() || (late && late()); });
+    Iterated orbit = iterate(map, map.base.scene(scene), steps, every,
+                             [&] { return interrupt() || (late && late()); });
+    Names doubts = doubts_of_orbit(map, orbit);
+    return std::pair(std::move(orbit), std::move(doubts));
   };
-  return exactly(interrupt, run, [](const Iterated& found) {
+  return exactly(interrupt, run, [](const std::pair<Iterated, Names>& orbit) {
+    const auto& [found, doubts] = orbit;
     const auto count = static_cast<py::ssize_t>(found.samples.size());
     const auto size = static_cast<py::ssize_t>(found.names.size());
     py::array_t<double> y({size, count});
@@ -192,7 +196,8 @@ py::object iterated(const MapCase& self, const std::string& scene, std::uint64_t
     return py::dict("t"_a = t, "y"_a = y, "steps"_a = found.steps, "names"_a = found.names,
                     "state"_a = found.state, "finite"_a = found.finite, "stopped"_a = found.stopped,
                     "drift"_a = drift, "seconds"_a = found.seconds,
-                    "error_estimate"_a = found.error_estimate);
+                    "error_estimate"_a = found.error_estimate, "reason"_a = found.reason,
+                    "warnings"_a = doubts);
   });
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/analysis/solve.hpp"
@@ -359,7 +360,7 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
   Ensemble members;
   EnsembleResult result;
   Names states, invariants;
-  std::string off_constraints;
+  Names warnings;
   {
     const ExactAlgebra guard;
     const Model& model = self.model();
@@ -381,7 +382,7 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     fill(members.initial, members.states, initial, places_of(variables, states, "a variable"));
     fill(members.values, members.parameters, values,
          places_of(parameters, s.parameters, "a parameter"));
-    off_constraints = require_members(model, model.scene(scene), s, members);
+    const std::string off_constraints = require_members(model, model.scene(scene), s, members);
     const Method& by = method_named(method);
     const RunRequest asked = request(duration, tolerance, rtol, atol);
     Settings settings = settings_for(asked, run);
@@ -397,6 +398,9 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     result = settled([&] {
       return interrupt.told() ? in_parts(members, integrated, interrupt) : integrated(members);
     });
+    if (!off_constraints.empty()) warnings.push_back(off_constraints);
+    std::ranges::move(doubts_of_members(model, s.invariant_names, result, settings.rtol),
+                      std::back_inserter(warnings));
   }
   interrupt.finish();
   Doubles ends({count, members.states}), drift({count, invariants.size()});
@@ -418,8 +422,7 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
   }
   return py::dict("names"_a = states, "invariant_names"_a = invariants, "states"_a = ends,
                   "t"_a = times, "drift"_a = drift, "status"_a = status, "steps"_a = steps,
-                  "seconds"_a = result.seconds, "jobs"_a = result.jobs,
-                  "warnings"_a = off_constraints.empty() ? Names{} : Names{off_constraints});
+                  "seconds"_a = result.seconds, "jobs"_a = result.jobs, "warnings"_a = warnings);
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "runtime/program/interpreter.hpp"
+
+namespace casimir {
+
+/// Finds where roots of right-hand sides whose exponent is below 1/2 come to zero: there they are
+/// not Lipschitz continuous, whatever the radicand, and more than one solution may go on. The
+/// series of a solution does not show that: x = (t - 1)^3 is one of x' = 3 (x^2)^(1/3), and x = 0
+/// from t = 1 on is another. (The square root of a function that is nowhere negative and has two
+/// continuous derivatives is Lipschitz continuous: Glaeser, Ann. Inst. Fourier 13, 203, 1963.)
+class RootZeros {
+ public:
+  /// \param parameters  at run time.
+  RootZeros(const Program& rhs, std::vector<double> parameters);
+
+  /// Whether there are such roots.
+  bool any() const { return !highest_.empty(); }
+
+  /// Writes the state at a part of a step, from 0 to 1, and returns the time.
+  using StateAt = std::function<double(double part, double* x)>;
+  /// The part of a step at which a radicand is zero; nothing where none is.
+  std::optional<double> zero_in(const StateAt& state_at);
+
+ private:
+  const std::vector<double>& radicands(double part, const StateAt& state_at);
+
+  std::size_t states_;
+  std::optional<Interpreter> evaluate_;
+  std::vector<double> inputs_, values_;
+  std::vector<double> highest_;  ///< of each radicand, so far
+};
+
+}  // namespace casimir
