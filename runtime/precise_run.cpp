@@ -210,7 +210,11 @@ class Runner {
       }
       last = last && h == tried;
     }
-    if (meets_zero_of_root(series, h)) return;
+    if (const auto shorter = up_to_zero_of_root(series, h)) {
+      h = *shorter;
+      last = false;
+      if (h.is_zero()) return;
+    }
     const BigFloat next = last ? end_ : time_ + h;
     record_samples(series, next);
     if (mark_ && !passed(time_, *mark_) && !passed(*mark_, next))
@@ -223,21 +227,30 @@ class Runner {
     follow_invariants();
   }
 
-  /// Whether the motion need not be the only one behind a place in this step.
-  bool meets_zero_of_root(const std::vector<LongSeries>& series, const BigFloat& h) {
-    if (!roots_->any()) return false;
+  /// Ends the run before a place in this step behind which the motion need not be the only one.
+  /// \return  the step up to there; nothing where there is no such place
+  std::optional<BigFloat> up_to_zero_of_root(const std::vector<LongSeries>& series,
+                                             const BigFloat& h) {
+    if (!roots_->any()) return std::nullopt;
+    const auto scaled = [](const BigFloat& size, double part) {
+      BigFloat factor;
+      arf_set_d(factor.mid(), part);
+      return size * factor;
+    };
     const auto zero = roots_->zero_in([&](double part, double* x) {
-      BigFloat after;
-      arf_set_d(after.mid(), part);
-      after = after * h;
+      const BigFloat after = scaled(h, part);
       for (const LongSeries& s : series) *x++ = double_of(value_at(s, after));
       return double_of(time_ + after);
     });
-    if (!zero) return false;
+    if (!zero) return std::nullopt;
+    const BigFloat place = scaled(h, *zero);
     stop(Status::singularity,
-         "what a root is taken of comes to zero in the next step, where the equations are not "
-         "Lipschitz continuous: more than one solution may go on from there");
-    return true;
+         "what a root is taken of comes to zero next, where the equations are not Lipschitz "
+         "continuous: more than one solution may go on from there");
+    // A run that is compared with one from the other side goes a little farther than that.
+    constexpr double kBefore = 0x1p-20;
+    const BigFloat shorter = place - scaled(end_, problem_.from_other_side ? 2 * kBefore : kBefore);
+    return shorter.sign() * h.sign() > 0 ? shorter : BigFloat();
   }
 
   /// Whether the series has the derivative that the equations ask for: at the end of the step, and

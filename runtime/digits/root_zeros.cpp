@@ -51,26 +51,32 @@ std::optional<double> RootZeros::zero_in(const StateAt& state_at) {
     for (std::size_t k = 0; k < highest_.size(); ++k)
       highest_[k] = std::max(highest_[k], sampled[i][k]);
   }
+  const auto place_of = [](std::size_t i) { return static_cast<double>(i) / (kPlaces - 1); };
   for (std::size_t k = 0; k < highest_.size(); ++k) {
-    for (std::size_t i = 0; i + 2 < kPlaces; ++i) {
-      if (!(sampled[i + 1][k] <= sampled[i][k] && sampled[i + 1][k] <= sampled[i + 2][k])) continue;
-      // The least value between the neighbours, by the golden section.
-      constexpr double kGolden = 0.6180339887498949;
-      double low = static_cast<double>(i) / (kPlaces - 1);
-      double high = static_cast<double>(i + 2) / (kPlaces - 1);
-      for (int round = 0; round < 90; ++round) {
-        const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-        const double at_left = radicands(left, state_at)[k];
-        if (at_left < radicands(right, state_at)[k])
-          high = right;
-        else
-          low = left;
-      }
-      const double place = (low + high) / 2;
+    for (std::size_t i = 0; i < kPlaces; ++i) {
+      const std::size_t before = i > 0 ? i - 1 : i, behind = i + 1 < kPlaces ? i + 1 : i;
+      if (sampled[before][k] < sampled[i][k] || sampled[behind][k] < sampled[i][k]) continue;
+      const double place = least_between(place_of(before), place_of(behind), k, state_at);
       if (radicands(place, state_at)[k] <= kZero * highest_[k]) return place;
     }
   }
   return std::nullopt;
+}
+
+/// Where a radicand is least that is so within a part of a step: by the golden section.
+double RootZeros::least_between(double low, double high, std::size_t which,
+                                const StateAt& state_at) {
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr int kRounds = 90;
+  for (int round = 0; round < kRounds; ++round) {
+    const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+    const double at_left = radicands(left, state_at)[which];
+    if (at_left < radicands(right, state_at)[which])
+      high = right;
+    else
+      low = left;
+  }
+  return (low + high) / 2;
 }
 
 }  // namespace casimir

@@ -29,6 +29,7 @@ class RootZeros {
 
  private:
   const std::vector<double>& radicands(double part, const StateAt& state_at);
+  double least_between(double low, double high, std::size_t which, const StateAt& state_at);
 
   std::size_t states_;
   std::optional<Interpreter> evaluate_;

@@ -438,7 +438,8 @@ TEST(PreciseRun, EndsWhereARootMakesSolutionsPart) {
   EXPECT_NE(parts.reason.find("more than one solution"), std::string::npos) << parts.reason;
   EXPECT_LE(cln::double_approx(parts.time), 1);
   EXPECT_EQ(run(cln::cl_RA("1/1000000"), cln::cl_RA("1/3")).status, Status::ok);
-  EXPECT_EQ(run(1, cln::cl_RA("2/3")).status, Status::ok);
+  EXPECT_GT(cln::double_approx(parts.time), 0.999);
+  EXPECT_EQ(run(0, cln::cl_RA("2/3")).status, Status::ok);
 }
 
 }  // namespace

@@ -36,10 +36,12 @@ Solution solve(const Model& model, const Scene& scene, const SolveOptions& optio
     run();
   };
   solution.run_ = integrate_assessed(model, *solution.scene_, how);
-  // The end may be before the last step: see CancelledParts.
+  // The end may be before the last step, and within one: see CancelledParts.
   const double end = std::abs(solution.run_.trajectory.time);
   while (solution.steps_.size() > 1 && std::abs(solution.steps_.back().time) > end)
     solution.steps_.pop_back();
+  if (!solution.steps_.empty() && solution.steps_.back().time != solution.run_.trajectory.time)
+    solution.steps_.push_back({solution.run_.trajectory.time, solution.run_.trajectory.state});
   return solution;
 }
 

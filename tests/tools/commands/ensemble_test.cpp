@@ -75,8 +75,7 @@ TEST(EnsembleFile, AnIntegralThatIsRefutedIsNamed) {
   const Folder folder;
   write(folder, "turn.toml",
         "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"y\"\n"
-        "y = \"-x\"\n[[integral]]\nname = \"E\"\nexpression = \"x^2 + y^2\"\n[[integral]]\n"
-        "name = \"K\"\nexpression = \"x*y\"\n[[scene]]\nname = \"default\"\n"
+        "y = \"-x\"\n[integrals]\nE = \"x^2 + y^2\"\nK = \"x*y\"\n[[scene]]\nname = \"default\"\n"
         "initial = { x = \"1\", y = \"1/2\" }\nduration = \"1\"\n");
   const Outcome outcome = members(folder, "x\n1\n2\n", {"integrate", "./turn.toml", "--json"});
   const std::string warnings = outcome.json().at("warnings").dump();

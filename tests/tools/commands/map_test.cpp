@@ -319,8 +319,7 @@ TEST(MapCommands, AnIntegralThatIsRefutedIsNamed) {
   const Folder folder;
   write(folder, "turn.toml",
         "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"y\"\n"
-        "y = \"-x\"\n[[integral]]\nname = \"E\"\nexpression = \"x^2 + y^2\"\n[[integral]]\n"
-        "name = \"K\"\nexpression = \"x*y\"\n[[scene]]\nname = \"default\"\n"
+        "y = \"-x\"\n[integrals]\nE = \"x^2 + y^2\"\nK = \"x*y\"\n[[scene]]\nname = \"default\"\n"
         "initial = { x = \"1\", y = \"1/2\" }\nduration = \"7\"\n");
   const std::string warnings =
       run_in(folder, {"integrate", "./turn.toml", "--json"}).json().at("warnings").dump();
