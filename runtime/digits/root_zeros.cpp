@@ -20,10 +20,12 @@ RootZeros::RootZeros(const Program& rhs, std::vector<double> parameters)
   radicands.outputs.clear();
   radicands.output_names.clear();
   for (const Instruction& line : rhs.code) {
-    if (line.op != Op::pow) continue;
+    if (line.op != Op::pow && line.op != Op::sqrt) continue;
+    const auto code = [&](int of) { return rhs.code[static_cast<std::size_t>(of)]; };
     const double exponent =
-        literal_value(rhs, rhs.code[static_cast<std::size_t>(line.b)], Arithmetic<double>{});
-    if (!(exponent > 0 && exponent < 0.5) || std::ranges::count(radicands.outputs, line.a) > 0)
+        line.op == Op::sqrt ? 0.5 : literal_value(rhs, code(line.b), Arithmetic<double>{});
+    const double least = code(line.a).op == Op::abs ? 1 : 0.5;
+    if (!(exponent > 0 && exponent < least) || std::ranges::count(radicands.outputs, line.a) > 0)
       continue;
     radicands.outputs.push_back(line.a);
     radicands.output_names.emplace_back("radicand");
@@ -56,6 +58,7 @@ std::optional<double> RootZeros::zero_in(const StateAt& state_at) {
     for (std::size_t i = 0; i < kPlaces; ++i) {
       const std::size_t before = i > 0 ? i - 1 : i, behind = i + 1 < kPlaces ? i + 1 : i;
       if (sampled[before][k] < sampled[i][k] || sampled[behind][k] < sampled[i][k]) continue;
+      if (sampled[i][k] <= kZero * highest_[k]) return place_of(i);
       const double place = least_between(place_of(before), place_of(behind), k, state_at);
       if (radicands(place, state_at)[k] <= kZero * highest_[k]) return place;
     }

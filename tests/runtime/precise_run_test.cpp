@@ -440,6 +440,15 @@ TEST(PreciseRun, EndsWhereARootMakesSolutionsPart) {
   EXPECT_EQ(run(cln::cl_RA("1/1000000"), cln::cl_RA("1/3")).status, Status::ok);
   EXPECT_GT(cln::double_approx(parts.time), 0.999);
   EXPECT_EQ(run(0, cln::cl_RA("2/3")).status, Status::ok);
+  // The same as powers of |x|.
+  const auto run_of_size = [](const cln::cl_RA& exponent) {
+    Builder b({"x"});
+    b.output(b.op(Op::mul, b.number(3), b.op(Op::pow, b.op(Op::abs, 0), b.number(exponent))));
+    const Program program = b.program();
+    return agreed_run(problem(program, {-1, 2}), 30).run.status;
+  };
+  EXPECT_EQ(run_of_size(cln::cl_RA("2/3")), Status::singularity);
+  EXPECT_EQ(run_of_size(cln::cl_RA("4/3")), Status::ok);
 }
 
 }  // namespace
