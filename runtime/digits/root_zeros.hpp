@@ -9,8 +9,8 @@
 
 namespace casimir {
 
-/// Finds where roots of right-hand sides whose exponent is below 1/2 come to zero: there they are
-/// not Lipschitz continuous, whatever the radicand, and more than one solution may go on. The
+/// Finds where roots of right-hand sides come to zero whose exponent is below 1/2, or below 1 of
+/// |u|: there they need not be Lipschitz continuous, and more than one solution may go on. The
 /// series of a solution does not show that: x = (t - 1)^3 is one of x' = 3 (x^2)^(1/3), and x = 0
 /// from t = 1 on is another. (The square root of a function that is nowhere negative and has two
 /// continuous derivatives is Lipschitz continuous: Glaeser, Ann. Inst. Fourier 13, 203, 1963.)
