@@ -132,6 +132,9 @@ class Maps(unittest.TestCase):
         self.assertNotIn("eps", again.parameters)
         degrees = casimir.load("euler").kahan_degrees(6)
         self.assertEqual((degrees.growth, degrees.entropy), ("polynomial", 0.0))
+        self.assertEqual(degrees.confinement, "confined")
+        self.assertTrue(all(orbit["recovered"] > orbit["lost"] for orbit in degrees.singularities))
+        self.assertTrue(degrees.singularities)
         with self.assertRaises(casimir.RequestError):
             casimir.load("euler").discretise("leapfrog")
         with self.assertRaises(casimir.ModelError):

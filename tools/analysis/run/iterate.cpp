@@ -188,6 +188,10 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
     }
   }
   result.seconds = elapsed(start);
+  if (every > 0 && result.sample_steps.back() != result.steps) {
+    result.sample_steps.push_back(result.steps);
+    result.samples.push_back(result.state);
+  }
   drift.look(result.state, result.invariants);
   if (with_estimate) result.error_estimate = estimated_error(module, run, result);
   return result;

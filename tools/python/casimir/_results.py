@@ -237,6 +237,10 @@ class Degrees:
     formula: str  #: as '2*n^2 + 1', where all of them obey it
     recurrence: str  #: as 'd(n+2) = 3*d(n+1) - d(n)'
     ratio: float | None  #: of exponential growth
+    confinement: str = "unclear"  #: of singularities: 'none', 'confined', 'not_confined' or 'unclear'
+    confinement_steps: int = 0  #: that every orbit was followed, if it recovered nothing
+    #: lost, recovered (or None), until: iterates; points: that did so
+    singularities: list[dict[str, Any]] = field(default_factory=list)
 
     @property
     def entropy(self) -> float | None:

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "symbolic/discrete/confinement.hpp"
 #include "symbolic/discrete/degrees.hpp"
 #include "symbolic/discrete/growth.hpp"
 #include "symbolic/discrete/kahan.hpp"
@@ -118,11 +119,33 @@ py::object search_of_map(const MapCase& self, int degree, double seconds, double
   });
 }
 
-py::dict to_python(const std::vector<int>& degrees) {
-  const discrete::Growth growth = discrete::growth_of(degrees);
-  return py::dict("degrees"_a = degrees, "growth"_a = to_string(growth.kind),
+/// The degrees of the iterates, and what becomes of singularities.
+struct DegreesOfMap {
+  std::vector<int> degrees;
+  discrete::Confinement singular;  ///< unclear where no time was left for it
+};
+
+template <class Degrees, class Singular>
+DegreesOfMap degrees_of(const Degrees& degrees, const Singular& singular) {
+  DegreesOfMap result{.degrees = degrees(), .singular = {}};
+  try {
+    result.singular = singular();
+  } catch (const search::NoAnswer&) {  // the degrees are known
+  }
+  return result;
+}
+
+py::dict to_python(const DegreesOfMap& found) {
+  const discrete::Growth growth = discrete::growth_of(found.degrees);
+  py::list singularities;
+  for (const discrete::SingularOrbit& orbit : found.singular.orbits)
+    singularities.append(py::dict("lost"_a = orbit.lost, "recovered"_a = orbit.recovered,
+                                  "until"_a = orbit.until, "points"_a = orbit.points));
+  return py::dict("degrees"_a = found.degrees, "growth"_a = to_string(growth.kind),
                   "growth_degree"_a = growth.degree, "formula"_a = growth.formula,
-                  "recurrence"_a = growth.recurrence, "ratio"_a = growth.ratio);
+                  "recurrence"_a = growth.recurrence, "ratio"_a = growth.ratio,
+                  "confinement"_a = to_string(found.singular.kind),
+                  "confinement_steps"_a = found.singular.steps, "singularities"_a = singularities);
 }
 
 discrete::DegreeRequest request_of(int iterates, bool kahan) {
@@ -132,22 +155,28 @@ discrete::DegreeRequest request_of(int iterates, bool kahan) {
   return request;
 }
 
-py::object degrees(const MapCase& self, int iterates, double seconds, double memory) {
+py::object degrees(const MapCase& self, int count, double seconds, double memory) {
   Interrupt interrupt;
   const auto find = [&] {
-    return discrete::degrees_of_iterates(self.map(), request_of(iterates, false),
-                                         watched(interrupt, seconds, memory));
+    const search::Watch watch = watched(interrupt, seconds, memory);
+    return degrees_of(
+        [&] { return discrete::degrees_of_iterates(self.map(), request_of(count, false), watch); },
+        [&] { return discrete::confinement_of(self.map(), watch); });
   };
-  return exactly(interrupt, find, [](const std::vector<int>& found) { return to_python(found); });
+  return exactly(interrupt, find, [](const DegreesOfMap& found) { return to_python(found); });
 }
 
-py::object kahan_degrees(const Case& self, int iterates, double seconds, double memory) {
+py::object kahan_degrees(const Case& self, int count, double seconds, double memory) {
   Interrupt interrupt;
   const auto find = [&] {
-    return discrete::degrees_of_kahan_iterates(self.model(), request_of(iterates, true),
-                                               watched(interrupt, seconds, memory));
+    const search::Watch watch = watched(interrupt, seconds, memory);
+    return degrees_of(
+        [&] {
+          return discrete::degrees_of_kahan_iterates(self.model(), request_of(count, true), watch);
+        },
+        [&] { return discrete::confinement_of_kahan(self.model(), watch); });
   };
-  return exactly(interrupt, find, [](const std::vector<int>& found) { return to_python(found); });
+  return exactly(interrupt, find, [](const DegreesOfMap& found) { return to_python(found); });
 }
 
 /// The case file of a map that is made of a flow.
