@@ -254,5 +254,17 @@ TEST(Trust, ASmallStateThatBeginsAtZeroIsNamedToo) {
   EXPECT_NE(outcome.out.find("says nothing of u:"), std::string::npos) << outcome.out;
 }
 
+TEST(Trust, AToleranceBesideAConstantStepIsSaidToBoundNothing) {
+  const auto warnings = [](std::vector<std::string> more) {
+    std::vector<std::string> words{"integrate", "euler", "--method", "dop853", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words).json().at("warnings").dump();
+  };
+  const char* const said = "the tolerance bounds nothing";
+  EXPECT_TRUE(has(warnings({"--step", "0.25", "--rtol", "1e-9"}), said));
+  EXPECT_FALSE(has(warnings({"--step", "0.25"}), said));
+  EXPECT_FALSE(has(warnings({"--rtol", "1e-9"}), said));
+}
+
 }  // namespace
 }  // namespace casimir::test

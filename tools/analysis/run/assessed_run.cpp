@@ -234,6 +234,10 @@ class Judge {
     Trajectory& trajectory = result_.trajectory;
     if (!result_.compiled->warning.empty()) doubts.push_back(result_.compiled->warning);
     if (result_.later && result_.later->missing) doubts.emplace_back(kInterpretedWarning);
+    const RunRequest& asked = options_.run;
+    if (asked.step && (asked.rtol || asked.atol || asked.tolerance))
+      doubts.emplace_back(
+          "a constant step is not controlled by its error: the tolerance bounds nothing");
     DriftDoubts drifts = check_drift(model_, run_.specialisation.invariant_names, trajectory);
     std::ranges::move(drifts.sentences, std::back_inserter(doubts));
     if (trajectory.status == Status::ok) doubt_small_states();
