@@ -59,26 +59,11 @@ bool is_structure(const SearchArguments& o) {
   return o.fields || o.bivectors || o.forms || o.tensors > 0 || o.hamiltonian || o.bihamiltonian;
 }
 
-/// Whether two functions vanish at the same points, as one is a multiple of the other by a number.
-bool have_one_zero_set(const GiNaC::ex& f, const GiNaC::ex& g) {
-  if (f.is_equal(g)) return true;
-  if (f.is_zero() || g.is_zero()) return false;
-  const GiNaC::ex ratio = (f / g).normal();
-  return GiNaC::is_a<GiNaC::numeric>(ratio) && !ratio.is_zero();
-}
-
-/// The constraints of the case that the search is not about: it is about the whole space of the
-/// variables, or about the level that was given, and on the constraints too there may be more.
+/// See the other one.
 std::vector<std::string> constraints_left_out(const SearchArguments& options, const Model& model) {
   std::vector<GiNaC::ex> level;
   for (const Text& function : texts_of(options.on, "--on")) level.push_back(model.parse(function));
-  std::vector<std::string> left;
-  for (const NamedExpression& constraint : model.constraints) {
-    if (std::ranges::none_of(
-            level, [&](const GiNaC::ex& f) { return have_one_zero_set(f, constraint.value); }))
-      left.push_back(constraint.name);
-  }
-  return left;
+  return tools::constraints_left_out(model, level);
 }
 
 /// What is said of the constraints below the answer; empty where the answer says it.

@@ -173,6 +173,13 @@ class Structure(unittest.TestCase):
     def test_tensors_symmetries_and_relations(self):
         euler = casimir.load("euler")
         self.assertTrue(euler.tensors(2, 1))
+        rotation = casimir.Case(equations={"x": "y", "y": "-x"}, variables=["x", "y"])
+        fields = rotation.orbital_symmetries(1)
+        self.assertEqual((fields.verdict, fields.trivial), ("proved", 1))
+        self.assertEqual([one["components"] for one in fields], [{"x": "x", "y": "y"}])
+        self.assertEqual(fields.not_on, [])
+        self.assertEqual(casimir.load("neumann").search(1).not_on, casimir.load("neumann").tensors(1, 0).not_on)
+        self.assertIn("not about the constraints", repr(casimir.load("kovalevskaya").tensors(1, 0)))
         found = casimir.Case(equations={"x": "x*y + y^2", "y": "y^2"}, variables=["x", "y"]).tensors(1, 0, conformal=True)
         self.assertEqual((found[0]["components"], found[0]["factor"]), ({"x": "1"}, "-y"))
         self.assertEqual(found.rational, "proved")

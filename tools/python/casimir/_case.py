@@ -285,8 +285,13 @@ class Case:
                 facts["complete"],
                 facts["reason"],
             )
-        return _results.search_of(self._core.search(degree, casimirs, texts_of(on), texts_of(functions),
-                                                    pairs_of(weights), time_limit, memory))
+        facts = self._core.search(degree, casimirs, texts_of(on), texts_of(functions), pairs_of(weights), time_limit,
+                                  memory)
+        return _results.search_of({**facts, "not_on": self._core.constraints_left_out(texts_of(on))})
+
+    def _findings(self, facts: dict[str, Any], what: str) -> Findings:
+        """With the constraints of the case, which a search for structure is not about."""
+        return _results.Findings({**facts, "not_on": self._core.constraints_left_out([])}, what)
 
     def darboux(self, degree: int, *, free: Expressions = None, time_limit: float = 0,
                 memory: float = 0) -> list[DarbouxPolynomial] | Findings:
@@ -299,7 +304,7 @@ class Case:
         ['x']
         """
         if free is not None:
-            return _results.Findings(
+            return self._findings(
                 _core.darboux_conditions(self._core, degree, texts_of(free), time_limit, memory),
                 "values of parameters")
         return [_results.DarbouxPolynomial(**one) for one in self._core.darboux(degree, time_limit, memory)["found"]]
@@ -310,7 +315,7 @@ class Case:
         >>> Case(equations={"x": "2*x", "y": "3*y"}, variables=["x", "y"]).rational(1).found
         ['x^3/y^2']
         """
-        return _results.Findings(_core.rational(self._core, degree, time_limit, memory), "rational integrals")
+        return self._findings(_core.rational(self._core, degree, time_limit, memory), "rational integrals")
 
     def tensors(self, rank: int, degree: int, *, forms: bool = False, conformal: bool = False,
                 time_limit: float = 0, memory: float = 0) -> Findings:
@@ -327,11 +332,21 @@ class Case:
         '-1'
         """
         if conformal:
-            return _results.Findings(
+            return self._findings(
                 _core.conformal_tensors(self._core, rank, forms, degree, time_limit, memory),
                 "conformal forms" if forms else "conformal tensors")
-        return _results.Findings(_core.tensors(self._core, rank, forms, degree, time_limit, memory),
+        return self._findings(_core.tensors(self._core, rank, forms, degree, time_limit, memory),
                                  "forms" if forms else "tensors")
+
+    def orbital_symmetries(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
+        """Polynomial fields that take orbits to orbits: their bracket with the motion X is `factor` times X.
+
+        :returns: dictionaries with `components` by the names of the variables; products of X are left out.
+
+        >>> load("kepler").orbital_symmetries(1).verdict
+        'proved'
+        """
+        return self._findings(_core.orbital_symmetries(self._core, degree, time_limit, memory), "orbital symmetries")
 
     def hamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Poisson brackets of the equations of motion alone, up to a degree, with their Hamiltonians.
@@ -339,11 +354,11 @@ class Case:
         >>> Case(equations={"q": "p", "p": "-q"}, variables=["q", "p"]).hamiltonian(0)[0]["hamiltonian"]
         '(q^2 + p^2)/2'
         """
-        return _results.Findings(_core.brackets(self._core, degree, False, time_limit, memory), "brackets")
+        return self._findings(_core.brackets(self._core, degree, False, time_limit, memory), "brackets")
 
     def bihamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Second brackets, compatible with that of the case, with their Lenard chains."""
-        return _results.Findings(_core.brackets(self._core, degree, True, time_limit, memory), "second brackets")
+        return self._findings(_core.brackets(self._core, degree, True, time_limit, memory), "second brackets")
 
     def separation(self, degree: int = 2, *, on: Expressions = None, roots: Expression | None = None,
                    time_limit: float = 0, memory: float = 0) -> Separations:
@@ -362,7 +377,7 @@ class Case:
 
     def symmetries(self, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Linear symmetries of bracket and Hamiltonian, with their integrals by Noether's theorem."""
-        return _results.Findings(_core.symmetries(self._core, time_limit, memory), "linear symmetries")
+        return self._findings(_core.symmetries(self._core, time_limit, memory), "linear symmetries")
 
     def relate(self, other: Case, *, bracket_only: bool = False, time_limit: float = 0,
                memory: float = 0) -> Relation:

@@ -164,6 +164,7 @@ class Findings(Sequence[dict[str, Any]]):
     def __repr__(self) -> str:
         rational = " with rational coefficients" if self._facts.get("coefficients") == "rational" else ""
         end = f"no others{rational}: proved" if self.verdict == "proved" else f"others: undecided, {self.reason}"
+        end += _beside(self._facts.get("not_on", []))
         return "\n".join([f"<{len(self)} {self._what}; {end}>"] + [f"  {one}" for one in self.found])
 
     def _repr_html_(self) -> str:
@@ -302,6 +303,7 @@ class Search(Sequence[Found]):
     complete: bool  #: proved: there are no others up to the degree
     reason: str  #: where not
     generic: list[str]  #: parameters that the answer is about generic values of
+    not_on: list[str] = field(default_factory=list)  #: constraints of the case, on which there may be more
 
     def __getitem__(self, index):
         return self.found[index]
@@ -317,7 +319,12 @@ class Search(Sequence[Found]):
     def _repr_html_(self) -> str:
         said = "proved: there is no other" if self.complete else f"undecided: {self.reason}"
         rows = [(one.degree, (_maths(one.latex),), one.verdict) for one in self.found]
-        return table(["degree", "integral", "verdict"], rows, said)
+        return table(["degree", "integral", "verdict"], rows, said + _beside(self.not_on))
+
+
+def _beside(constraints: Sequence[str]) -> str:
+    """What is said of constraints that a search is not about."""
+    return f"; not about the constraints, on which there may be more: {', '.join(constraints)}" if constraints else ""
 
 
 def _maths(latex: str) -> str:

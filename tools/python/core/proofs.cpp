@@ -19,6 +19,7 @@
 #include "tools/python/core/exact_work.hpp"
 #include "tools/python/core/guard.hpp"
 #include "tools/show/system_view.hpp"
+#include "tools/text/proofs/constraints_note.hpp"
 #include "tools/typeset/latex.hpp"
 
 namespace casimir::python {
@@ -312,6 +313,14 @@ Names scenes(const Case& self) {
   return result;
 }
 
+/// The constraints that a search is not about. \param on  functions, on whose zero level it is
+Names constraints_left_out(const Case& self, const Names& on) {
+  const ExactAlgebra guard;
+  std::vector<GiNaC::ex> level;
+  for (const std::string& text : on) level.push_back(self.model().parse(typed(text, "on")));
+  return tools::constraints_left_out(self.model(), level);
+}
+
 /// An expression over the names of a case: as case files have it, and in LaTeX.
 std::pair<std::string, std::string> expression(const Case& self, const std::string& text) {
   const ExactAlgebra guard;
@@ -364,6 +373,7 @@ void bind_case(py::module_& module) {
                              [](const Case& self) { return named(self, self.model().integrals); })
       .def("expression", &expression)
       .def("show", &show)
+      .def("constraints_left_out", &constraints_left_out)
       .def("verify", &verify)
       .def("search", &find_integrals)
       .def("conditions", &find_conditions)

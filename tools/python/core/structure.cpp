@@ -6,6 +6,7 @@
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/structure/brackets.hpp"
 #include "symbolic/structure/conformal.hpp"
+#include "symbolic/structure/orbital.hpp"
 #include "symbolic/structure/relate/relate.hpp"
 #include "symbolic/structure/relate/symmetries.hpp"
 #include "symbolic/structure/separation.hpp"
@@ -75,6 +76,24 @@ py::object conformal_tensors(const Case& self, int rank, bool forms, int degree,
                     "rational"_a = verdict_of(report.complete_rational),
                     "constant_factors"_a = verdict_of(report.complete_constants),
                     "reason"_a = report.reason, "generic"_a = report.generic);
+  });
+}
+
+/// Fields that take orbits to orbits.
+py::object orbital_symmetries(const Case& self, int degree, double seconds, double memory) {
+  Interrupt interrupt;
+  const auto find = [&] {
+    return structure::find_orbital_symmetries(self.model(), degree,
+                                              watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [](const structure::OrbitalReport& report) {
+    py::list found;
+    for (const structure::OrbitalSymmetry& own : report.found)
+      found.append(py::dict("components"_a = table_of(own.texts), "factor"_a = own.factor_text,
+                            "degree"_a = own.degree, "verdict"_a = to_string(own.verdict)));
+    return py::dict("found"_a = found, "trivial"_a = report.trivial,
+                    "verdict"_a = verdict_of(report.complete), "reason"_a = report.reason,
+                    "generic"_a = report.generic);
   });
 }
 
@@ -201,6 +220,7 @@ void bind_structure(py::module_& module) {
   module.def("rational", &rational);
   module.def("tensors", &tensors);
   module.def("conformal_tensors", &conformal_tensors);
+  module.def("orbital_symmetries", &orbital_symmetries);
   module.def("darboux_conditions", &darboux_conditions);
   module.def("brackets", &brackets);
   module.def("separation", &separation);
