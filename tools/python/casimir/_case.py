@@ -343,7 +343,7 @@ class Case:
 
         :returns: dictionaries with `components` by the names of the variables; products of X are left out.
 
-        >>> load("kepler").orbital_symmetries(1).verdict
+        >>> load("euler").orbital_symmetries(1).verdict
         'proved'
         """
         return self._findings(_core.orbital_symmetries(self._core, degree, time_limit, memory), "orbital symmetries")
