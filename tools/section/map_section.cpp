@@ -82,7 +82,7 @@ class MapSection {
     const Stopwatch watch;
     Progress progress(!request_.common.quiet);
     progress.begin(map_.base.name + ": orbits");
-    if (std::string parts = unwatched_parts(map_.as_field(), scene_); !parts.empty())
+    if (std::string parts = unwatched_parts(map_.as_field(), scene_, States::apart); !parts.empty())
       warnings_.push_back(std::move(parts));
     const auto seeds =
         request_.seeds.empty()

@@ -339,6 +339,12 @@ TEST(MapCommands, WhatTheMapWasWrittenWithHasValues) {
   EXPECT_EQ(ended.json().at("status"), "non_finite");
   EXPECT_EQ(ended.json().at("steps"), 4);
   EXPECT_TRUE(has(ended.err, "sqrt(x), which the map was written with, has no value")) << ended.err;
+  // A flow does not come from x > 0 to x < 0 where it has the pole of 1/x; a map does.
+  write(folder, "over.toml",
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x - 2\"\n"
+        "y = \"1/x + log(x) - log(x)\"\n[[scene]]\nname = \"default\"\n"
+        "initial = { x = \"3\", y = \"0\" }\nduration = \"7\"\n");
+  EXPECT_EQ(run_in(folder, {"integrate", "./over.toml", "--json"}).json().at("steps"), 2);
 }
 
 // x -> 4 x (1 - x) is sin(u)^2 -> sin(2 u)^2.

@@ -192,7 +192,7 @@ std::vector<ex> written_parts(const Model& model, const Scene& scene) {
   return needs;
 }
 
-std::vector<ex> cancelled_parts(const Model& model, const Scene& binding) {
+std::vector<ex> cancelled_parts(const Model& model, const Scene& binding, States states) {
   std::vector<ex> needs;
   for (const ex& part : written_parts(model, binding)) {
     const auto is_it = [&](const ex& other) { return other.is_equal(part); };
@@ -207,14 +207,15 @@ std::vector<ex> cancelled_parts(const Model& model, const Scene& binding) {
   inputs.insert(inputs.end(), model.parameters.begin(), model.parameters.end());
   ShownParts shown(fields, inputs);
   std::erase_if(needs, [&](const ex& part) {
-    return shown.shows(part) || (shown.keeps(part) && has_value_at_start(model, binding, part));
+    return shown.shows(part) || (states == States::connected && shown.keeps(part) &&
+                                 has_value_at_start(model, binding, part));
   });
   return needs;
 }
 
-std::string unwatched_parts(const Model& model, const Scene& scene) {
+std::string unwatched_parts(const Model& model, const Scene& scene, States states) {
   std::string texts;
-  for (const ex& part : cancelled_parts(model, scene))
+  for (const ex& part : cancelled_parts(model, scene, states))
     texts += (texts.empty() ? "" : ", ") + printable(expression_text(part), 80);
   if (texts.empty()) return {};
   return fmt::format(
@@ -223,12 +224,12 @@ std::string unwatched_parts(const Model& model, const Scene& scene) {
       texts);
 }
 
-CancelledParts::CancelledParts(const Model& model, const PreparedScene& run)
-    : has_time_(model.time.has_value()) {
+CancelledParts::CancelledParts(const Model& model, const PreparedScene& run, States states)
+    : has_time_(model.time.has_value()), are_apart_(states == States::apart) {
   const Specialisation& s = run.specialisation;
   const std::vector<GiNaC::symbol> symbols = symbols_in(model);
   std::vector<ex> parts;
-  for (const ex& part : cancelled_parts(model, scene_of(model, s.scene))) {
+  for (const ex& part : cancelled_parts(model, scene_of(model, s.scene), states)) {
     const auto is_left_out = [&](const GiNaC::symbol& x) {
       return part.has(x) && std::ranges::find(s.states, x.get_name()) == s.states.end();
     };

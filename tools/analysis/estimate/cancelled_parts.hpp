@@ -19,22 +19,28 @@ namespace casimir {
 /// \throws ModelError  for one that has no value whatever the variables are
 std::vector<GiNaC::ex> written_parts(const Model& model, const Scene& binding);
 
+/// Whether the states of a motion are connected, as those of a flow are, or apart, as those of a
+/// map: these may go from one side of a pole to the other.
+enum class States { connected, apart };
+
 /// What the equations were written with and no longer show, as sqrt(x) of sqrt(x)^2, or of
 /// sqrt(x)^a where the scene says a = 2, in terms of the variables, the time and whatever `binding`
 /// leaves open; terms that the scene makes zero are not there at all: a solution is one of the case
 /// only as long as all of it has values. Numbers have them, and are left out.
 /// \throws ModelError  for one that has no value whatever the variables are
-std::vector<GiNaC::ex> cancelled_parts(const Model& model, const Scene& binding);
+std::vector<GiNaC::ex> cancelled_parts(const Model& model, const Scene& binding,
+                                       States states = States::connected);
 
 /// A warning that these are not watched, for runs that do not; empty where there are none.
-std::string unwatched_parts(const Model& model, const Scene& scene);
+std::string unwatched_parts(const Model& model, const Scene& scene,
+                            States states = States::connected);
 
 /// Watches along a run in double precision, or an orbit of a map, that these parts have values.
 class CancelledParts {
  public:
   /// Parts of which a variable is not integrated, or whose parameters have no known value, are not
   /// watched.
-  CancelledParts(const Model& model, const PreparedScene& run);
+  CancelledParts(const Model& model, const PreparedScene& run, States states = States::connected);
 
   /// Whether there is anything to watch.
   bool any() const { return !texts_.empty(); }
@@ -44,8 +50,6 @@ class CancelledParts {
   /// none.
   /// \param state_at  writes the state at a time within the step
   bool see(double t, const double* x, const std::function<void(double t, double* x)>& state_at);
-  /// The states that are seen are those of a map: there is nothing between them.
-  void are_apart() { are_apart_ = true; }
   /// Has a run that these settings are for watched, which ends where a part has no value; nothing
   /// where there is nothing to watch. Borrowed by the settings.
   void watch(Settings& settings);
@@ -68,7 +72,7 @@ class CancelledParts {
   std::vector<double> places_within(double t,
                                     const std::function<void(double t, double* x)>& state_at);
 
-  bool has_time_, are_apart_ = false;
+  bool has_time_, are_apart_;
   std::vector<std::string> texts_;  ///< of the part that each function is of
   std::vector<Shown> shown_;        ///< of each function
   std::optional<Interpreter> values_;

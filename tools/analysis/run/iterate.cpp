@@ -158,8 +158,7 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
   start = IterationClock::now();
   std::vector<double> next(result.state.size());
   const auto& step = module.functions().rhs;
-  CancelledParts parts(model, run);
-  parts.are_apart();
+  CancelledParts parts(model, run, States::apart);
   while (result.steps < steps) {
     // Those that the next state was written with, in terms of this one.
     if (parts.any() && !parts.see(static_cast<double>(result.steps), result.state.data())) {
