@@ -248,6 +248,7 @@ Report Finder::run() {
                  : on_.empty()     ? ClaimKind::integral
                                    : ClaimKind::conditional;
   report_.generic = system_.generic_parameters();
+  report_.functions = system_.names_of_functions();
   std::vector<Generator> casimirs = casimirs_as_needed();
   if (request_.casimirs) {
     report_.found = described(casimirs, {}, ClaimKind::casimir);

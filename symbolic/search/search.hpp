@@ -41,6 +41,9 @@ struct Report {
   bool complete = false;             ///< proved: there are no others
   std::string reason;                ///< where not
   std::vector<std::string> generic;  ///< parameters that it is about generic values of
+  /// What is found is a polynomial in, beside the variables and the time: functions of the
+  /// equations, as they are computed with, and those that were asked for.
+  std::vector<std::string> functions;
   std::size_t unknowns = 0, equations = 0, blocks = 0, largest_block = 0;
 };
 

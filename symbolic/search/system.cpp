@@ -63,8 +63,26 @@ std::unique_ptr<Model> with_symbols_for(const Model& model,
 
 }  // namespace
 
+std::vector<NamedExpression> System::with_own_functions(const Model& model,
+                                                        std::vector<NamedExpression> functions,
+                                                        const std::vector<GiNaC::ex>& others) {
+  if (functions.empty()) return functions;
+  const System plain(model, {}, others);
+  for (const std::size_t place : plain.places_of_functions()) {
+    const GiNaC::ex value = plain.functions().variable_value(place);
+    if (std::ranges::none_of(functions,
+                             [&](const NamedExpression& f) { return f.value.is_equal(value); }))
+      functions.push_back({plain.name(place), value, {}});
+  }
+  return functions;
+}
+
 System::System(const Model& model, const std::vector<NamedExpression>& functions,
-               const std::vector<GiNaC::ex>& others) try
+               const std::vector<GiNaC::ex>& others)
+    : System(model, with_own_functions(model, functions, others), others, Declared{}) {}
+
+System::System(const Model& model, const std::vector<NamedExpression>& functions,
+               const std::vector<GiNaC::ex>& others, Declared) try
     : meter_(std::in_place, model.limits),
       extended_(with_symbols_for(model, functions, others)),
       prover_(extended_ ? *extended_ : model, values_of(functions, others)) {
@@ -217,6 +235,19 @@ std::vector<Polynomial> System::plain_rates(const std::vector<Polynomial>& rates
 std::vector<Polynomial> System::of_atoms(const std::vector<Polynomial>& rates) const {
   if (prover_.ring().is_polynomial() && defined_.empty()) return rates;
   return prover_.ring().common_numerators(plain_rates(rates));
+}
+
+std::vector<std::size_t> System::places_of_functions() const {
+  std::vector<std::size_t> places;
+  for (const std::size_t atom : atoms_)
+    if (!contains(moving_, atom) && !silent_[atom]) places.push_back(atom);
+  return places;
+}
+
+std::vector<std::string> System::names_of_functions() const {
+  std::vector<std::string> names;
+  for (const std::size_t place : places_of_functions()) names.push_back(name(place));
+  return names;
 }
 
 GiNaC::ex System::expression(const Polynomial& p) const {

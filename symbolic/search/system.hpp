@@ -23,7 +23,8 @@ using Point = std::vector<Residue>;
 /// changes the speed of its motion and no integral.
 class System {
  public:
-  /// \param functions  more functions of the variables that the ansatz may use.
+  /// \param functions  more functions of the variables that the ansatz may use; those that it has
+  ///     without them stay in it, though the ring make them of finer ones.
   /// \param others  further expressions that will be converted.
   /// \throws CaseError, ModelError
   System(const Model& model, const std::vector<NamedExpression>& functions,
@@ -48,6 +49,8 @@ class System {
   const std::vector<bool>& is_silent() const { return silent_; }
   /// Functions that vanish identically, such as s^2 + c^2 - 1, which generate all of the kind.
   const std::vector<Polynomial>& relations() const { return relations_; }
+  /// The names of the atoms that the ansatz is made of, beside the coordinates and the time.
+  std::vector<std::string> names_of_functions() const;
   std::string name(std::size_t place) const { return prover_.ring().text(ring().variable(place)); }
   /// A polynomial of the ring over the symbols of the model: declared functions are put in.
   GiNaC::ex expression(const Polynomial& p) const;
@@ -101,6 +104,16 @@ class System {
                                     const Point* constants = nullptr) const;
 
  private:
+  /// All functions are declared.
+  struct Declared {};
+  System(const Model& model, const std::vector<NamedExpression>& functions,
+         const std::vector<GiNaC::ex>& others, Declared);
+  /// The declared functions, and those that the ansatz has without them.
+  static std::vector<NamedExpression> with_own_functions(const Model& model,
+                                                         std::vector<NamedExpression> functions,
+                                                         const std::vector<GiNaC::ex>& others);
+  std::vector<std::size_t> places_of_functions() const;
+
   /// How a generator of the ring is bound to earlier variables.
   struct Bond {
     enum class Kind { none, inverse, root } kind = Kind::none;

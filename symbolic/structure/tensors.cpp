@@ -147,6 +147,7 @@ void TensorSearch::search_rank(int rank) {
   report_.complete = space.complete();
   report_.reason = space.reason();
   report_.generic = space.system().generic_parameters();
+  report_.functions = space.system().names_of_functions();
   for (const search::Generator& g : space.found()) report_.found.push_back(described(space, g));
 }
 

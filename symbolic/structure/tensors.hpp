@@ -30,6 +30,8 @@ struct TensorReport {
   bool complete = false;             ///< proved: there are no others, and the dimensions are right
   std::string reason;                ///< where not
   std::vector<std::string> generic;  ///< parameters that it is about generic values of
+  /// What the components are polynomials in beside the variables and the time.
+  std::vector<std::string> functions;
 };
 
 /// All skew tensors T with L_X T = 0 and components of a degree, X being the motion, less those

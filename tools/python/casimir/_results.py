@@ -303,6 +303,8 @@ class Search(Sequence[Found]):
     complete: bool  #: proved: there are no others up to the degree
     reason: str  #: where not
     generic: list[str]  #: parameters that the answer is about generic values of
+    #: what all this is polynomials in, beside the variables
+    functions: list[str] = field(default_factory=list)
     not_on: list[str] = field(default_factory=list)  #: constraints of the case, on which there may be more
 
     def __getitem__(self, index):

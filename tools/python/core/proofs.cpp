@@ -112,7 +112,7 @@ py::dict to_python(const Case& self, const search::Report& report) {
   return py::dict("found"_a = to_python(self, report.found),
                   "casimirs"_a = to_python(self, report.casimirs), "trivial"_a = report.trivial,
                   "complete"_a = report.complete, "reason"_a = report.reason,
-                  "generic"_a = report.generic);
+                  "generic"_a = report.generic, "functions"_a = report.functions);
 }
 
 std::vector<std::pair<Text, Text>> weights_of(const Values& weights) {

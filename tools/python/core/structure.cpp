@@ -55,7 +55,7 @@ py::object tensors(const Case& self, int rank, bool forms, int degree, double se
                             "verdict"_a = to_string(own.verdict)));
     return py::dict("found"_a = found, "dimensions"_a = report.dimensions,
                     "verdict"_a = verdict_of(report.complete), "reason"_a = report.reason,
-                    "generic"_a = report.generic);
+                    "generic"_a = report.generic, "functions"_a = report.functions);
   });
 }
 

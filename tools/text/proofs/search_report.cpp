@@ -117,6 +117,11 @@ std::string on_constraints(const Model& model) {
 
 }  // namespace
 
+std::string in_functions(const std::vector<std::string>& functions) {
+  if (functions.empty()) return {};
+  return fmt::format(" in the variables and {}", fmt::join(functions, ", "));
+}
+
 nlohmann::ordered_json to_json(const Model& model, int degree, const Report& report,
                                double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
@@ -128,7 +133,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const Report& rep
                               {"hamiltonian", report.hamiltonian},
                               {"trivial", report.trivial},
                               {"verdict", report.complete ? "proved" : "undecided"},
-                              {"generic", report.generic}};
+                              {"generic", report.generic},
+                              {"functions", report.functions}};
   if (!report.reason.empty()) json["reason"] = report.reason;
   if (!model.constraints.empty() && report.kind == ClaimKind::integral)
     json["not_on"] = names_of(model.constraints);
@@ -142,7 +148,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const Report& rep
 
 void print(const Model& model, int degree, const Report& report, double seconds) {
   const bool colour = may_colour(1);
-  fmt::print("{}: polynomial {} up to degree {}\n", model.name, noun(report, true), degree);
+  fmt::print("{}: polynomial {} up to degree {}{}\n", model.name, noun(report, true), degree,
+             in_functions(report.functions));
   if (report.kind != ClaimKind::casimir && (report.hamiltonian || !report.casimirs.empty())) {
     fmt::print("known: {}\n", report.hamiltonian ? "the Hamiltonian" : "Casimir functions");
     print_list(report.casimirs, colour);
@@ -154,9 +161,9 @@ void print(const Model& model, int degree, const Report& report, double seconds)
     print_list(report.found, colour);
   }
   if (report.complete) {
-    fmt::print("No other {} up to degree {} that the known ones do not generate{}: {}\n",
-               noun(report, false), degree, for_generic(report.generic),
-               verdict_text(Verdict::proved, colour));
+    fmt::print("No other {} up to degree {}{} that the known ones do not generate{}: {}\n",
+               noun(report, false), degree, in_functions(report.functions),
+               for_generic(report.generic), verdict_text(Verdict::proved, colour));
   } else {
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "symbolic/model.hpp"
 #include "symbolic/search/conditions/darboux_conditions.hpp"
@@ -8,6 +10,10 @@
 #include "symbolic/search/search.hpp"
 
 namespace casimir::tools {
+
+/// " in the variables and exp(x)": what the functions of a search are polynomials in; empty where
+/// these are the variables alone.
+std::string in_functions(const std::vector<std::string>& functions);
 
 /// The interface's document for `search`.
 nlohmann::ordered_json to_json(const Model& model, int degree, const search::Report& report,

@@ -7,6 +7,7 @@
 
 #include "tools/cli/output.hpp"
 #include "tools/text/proofs/proof_report.hpp"
+#include "tools/text/proofs/search_report.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -106,7 +107,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const TensorRepor
                               {"dimensions", report.dimensions},
                               {"tensors", nlohmann::ordered_json::array()},
                               {"verdict", report.complete ? "proved" : "undecided"},
-                              {"generic", report.generic}};
+                              {"generic", report.generic},
+                              {"functions", report.functions}};
   for (const Tensor& tensor : report.found) {
     json["tensors"].push_back({{"components", object_of(tensor.texts)},
                                {"degree", tensor.degree},
@@ -120,8 +122,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const TensorRepor
 void print(const Model& model, int degree, const TensorReport& report, double seconds) {
   const bool colour = may_colour(1);
   const std::string name = structure::name_of(report.type);
-  fmt::print("{}: invariant {} T, L_X T = 0, with components of degree {} at most\n", model.name,
-             name, degree);
+  fmt::print("{}: invariant {} T, L_X T = 0, with components of degree {} at most{}\n", model.name,
+             name, degree, in_functions(report.functions));
   fmt::print("dimension up to degree 0, 1, ..: {}\n", fmt::join(report.dimensions, " "));
   fmt::print("{}\n", report.found.empty()
                          ? "beside those that are made of the motion, the bracket and the "
@@ -133,8 +135,8 @@ void print(const Model& model, int degree, const TensorReport& report, double se
                verdict_text(tensor.verdict, colour));
   }
   if (report.complete)
-    fmt::print("No others up to degree {}{}: {}\n", degree, generic_text(report.generic),
-               verdict_text(Verdict::proved, colour));
+    fmt::print("No others up to degree {}{}{}: {}\n", degree, in_functions(report.functions),
+               generic_text(report.generic), verdict_text(Verdict::proved, colour));
   else
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
