@@ -175,7 +175,9 @@ class Runner {
     predicted_ = predicted;
     if (!closed && !(near && again)) return false;
     run_.singular_time = to_cln(predicted ? *predicted : time_, format_);
-    stop(Status::singularity, reason_of(Status::singularity));
+    stop(Status::singularity,
+         "the solution has a singularity: it grows without bound, or comes to a place at which the "
+         "equations have a pole or are not smooth");
     return true;
   }
 

@@ -101,16 +101,26 @@ class Builder {
         for (const ex& part : lost_parts(quantity)) step.next_domain.push_back(part);
         step.next[variable_position(name)] = quantity.value;
       }
-      for (std::size_t i = 0; i < result.next.size(); ++i)
-        result.next[i] = substituted(step.next[i], before, file_.limits);
-      // What cancels in the composition was needed all the same.
-      for (const auto* parts : {&step.next, &step.next_domain}) {
-        for (const ex& part : *parts)
-          result.next_domain.push_back(substituted(part, before, file_.limits));
+      try {
+        compose(step, before, result);
+      } catch (const GiNaC::pole_error&) {
+        throw entries.front().second.error(
+            "behind the steps before it, this step has a value nowhere: it divides by zero");
       }
       result.steps.push_back(std::move(step));
     }
     if (result.steps.size() == 1) result.steps.clear();
+  }
+
+  /// One more step of a map. \param before  the variables as the steps before it leave them
+  void compose(const MapModel& step, const GiNaC::exmap& before, MapModel& result) const {
+    for (std::size_t i = 0; i < result.next.size(); ++i)
+      result.next[i] = substituted(step.next[i], before, file_.limits);
+    // What cancels in the composition was needed all the same.
+    for (const auto* parts : {&step.next, &step.next_domain}) {
+      for (const ex& part : *parts)
+        result.next_domain.push_back(substituted(part, before, file_.limits));
+    }
   }
 
   /// A symmetry that changes a parameter leads to another map where that has a value from outside.

@@ -19,6 +19,26 @@ struct Chosen {
   GenericRank rank;  ///< of all flows together
 };
 
+/// Those of the functions whose flows, which are constant, add nothing to the ones before them:
+/// they have a rank, and no points at which it was taken.
+std::optional<std::vector<NamedExpression>> dependent_of_constant(
+    Prover& prover, const std::vector<NamedExpression>& functions, const PolynomialRows& flows) {
+  std::vector<NamedExpression> result;
+  PolynomialRows chosen;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    PolynomialRows more = chosen;
+    more.push_back(flows[i]);
+    const auto rank = rank_with_conditions(prover, more);
+    if (!rank || !rank->exact || !rank->uneven.empty() || !rank->points.empty())
+      return std::nullopt;
+    if (rank->rank > chosen.size())
+      chosen = std::move(more);
+    else
+      result.push_back(functions[i]);
+  }
+  return result;
+}
+
 /// A function that is not proved to be an integral is not counted, however independent it is.
 std::optional<Chosen> independent_integrals(Prover& prover, Proof& proof) {
   std::vector<NamedExpression> functions = real_ones(prover, with_hamiltonian(prover.model(), {}));
@@ -33,7 +53,8 @@ std::optional<Chosen> independent_integrals(Prover& prover, Proof& proof) {
     return std::nullopt;
   }
   Chosen result;
-  auto others = dependent(functions, flows, found->points);
+  auto others = found->points.empty() ? dependent_of_constant(prover, functions, flows)
+                                      : dependent(functions, flows, found->points);
   if (!others) {
     proof.reason = "on other parts of the domain other integrals are independent (at " +
                    text_of(found->points) + ")";

@@ -301,6 +301,20 @@ TEST(Superintegrable, NeedsOneMore) {
                CaseError);
 }
 
+// Of constant flows the rank is known, and no points are.
+TEST(Superintegrable, ConstantFlowsAreCounted) {
+  const auto decided = [](const char* integrals) {
+    const Model model = model_of(
+        std::string("superintegrable = true\nhamiltonian = \"p1\"\n[phase_space]\nvariables = "
+                    "[\"q1\", \"q2\", \"p1\", \"p2\"]\ncanonical = true\n[integrals]\n") +
+        integrals);
+    return proof_of(model, "liouville", "superintegrability").verdict;
+  };
+  EXPECT_EQ(decided("A = \"p2\"\nB = \"q2\"\n"), Verdict::proved);
+  EXPECT_EQ(decided("A = \"p2\"\nB = \"p2 + p1\"\nC = \"q2\"\n"), Verdict::proved);
+  EXPECT_EQ(decided("A = \"p2\"\nB = \"p2 + p1\"\n"), Verdict::undecided);
+}
+
 // A root gives each claim a prover of its own, which has to have the motion.
 TEST(Superintegrable, KeplersProblemIs) {
   const std::string kepler =

@@ -52,6 +52,43 @@ TEST(FunctionsWithRelations, CalogerosAndMosersIntegralsAreAllThatThereAre) {
   EXPECT_EQ(degrees_of(four), (std::vector<int>{1, 3, 3}));
 }
 
+/// The ring makes sqrt(x^2 - 1) of sqrt(x + 1) and sqrt(x - 1), cos(x) of cos(x/2): what the
+/// equations have stays in the ansatz.
+TEST(FunctionsWithRelations, MoreFunctionsTakeNoneAway) {
+  for (const auto& [rate, more, integral] :
+       {std::tuple{"x/sqrt(x^2 - 1)", "sqrt(x + 1)", "y - sqrt(x^2 - 1)"},
+        {"1/(2*sqrt(x))", "x^(1/4)", "y - sqrt(x)"},
+        {"cos(x)", "cos(x/2)", "y - sin(x)"},
+        {"exp(x)", "exp(x/2)", "y - exp(x)"}}) {
+    const Model model = model_of(fmt::format(
+        "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"1\"\ny = \"{}\"\n", rate));
+    search::Request request = up_to(1);
+    const auto without = search::find_integrals(model, request);
+    request.functions.push_back(text(more));
+    const auto with = search::find_integrals(model, request);
+    ASSERT_EQ(with.found.size(), 1U) << rate;
+    EXPECT_EQ(with.found[0].text, integral);
+    ASSERT_EQ(without.found.size(), 1U) << rate;
+    EXPECT_GT(with.functions.size(), without.functions.size()) << rate;
+    EXPECT_TRUE(with.complete) << with.reason;
+  }
+}
+
+/// "No other" is about polynomials in functions that are named: y + exp(-x) is an integral.
+TEST(FunctionsWithRelations, AreNamed) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"1\"\ny = \"exp(-x)\"\n");
+  search::Request request = up_to(1);
+  const auto plain = search::find_integrals(model, request);
+  EXPECT_TRUE(plain.found.empty());
+  EXPECT_EQ(plain.functions, std::vector<std::string>{"exp(x)"});
+  request.functions.push_back(text("exp(-x)"));
+  EXPECT_EQ(search::find_integrals(model, request).found.size(), 1U);
+  const Model polynomial =
+      model_of("[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"y\"\ny = \"x\"\n");
+  EXPECT_TRUE(search::find_integrals(polynomial, up_to(1)).functions.empty());
+}
+
 /// With three couplings only the integrals that all homogeneous potentials of this degree have.
 TEST(FunctionsWithRelations, JacobisThreeBodiesHaveNoCubicIntegralOfTheMomenta) {
   const Model model = on_a_line(3, "g12 = {}\ng13 = {}\ng23 = {}\n");

@@ -131,6 +131,41 @@ TEST(CancelledParts, AreLookedAtWhereTheyComeNearestToTheirEnd) {
   EXPECT_EQ(status("(y - 1/7)^2 + 1/10000"), Status::ok);
 }
 
+/// z' of a circle (x, y) of radius 1.
+Model on_circle(const std::string& rate) {
+  return model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = \"y\"\n"
+      "y = \"-x\"\nz = \"" +
+      rate +
+      "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"0\", y = \"1\", z = \"0\" }\n"
+      "duration = \"20\"\n");
+}
+
+Status end_of(const Model& model, const std::string& method) {
+  SolveOptions options;
+  options.method = method;
+  return solve(model, model.scene("default"), options).trajectory().status;
+}
+
+TEST(CancelledParts, MayTouchTheEndOfTheirValues) {
+  for (const char* method : {"auto", "dop853"}) {
+    for (const char* rate : {"sqrt(1 - x^2)^2", "sqrt(1 - x)^2", "cos(acos(x))", "sin(asin(y))",
+                             "sqrt(1 - x^2 - y^2)^2"})
+      EXPECT_EQ(end_of(on_circle(rate), method), Status::ok) << rate << ' ' << method;
+    for (const char* rate : {"sqrt(99/100 - x^2)^2", "sqrt(9/10 - x)^2", "cos(acos(x + 1/10))",
+                             "sqrt(99/100 - x^2 - y^2)^2", "exp(log(x + 999/1000))"})
+      EXPECT_EQ(end_of(on_circle(rate), method), Status::singularity) << rate << ' ' << method;
+  }
+}
+
+/// GiNaC writes 1/(x - 1/2) as 2/(2*x - 1).
+TEST(CancelledParts, ArePolesWithFractions) {
+  for (const char* rate : {"(x - 1/2)^2/(x - 1/2)", "(x - 9/10)^2/(x - 9/10)", "1/(1/(x - 1/2))",
+                           "(x - 2/5)^3/(x - 2/5)^2"})
+    for (const char* method : {"auto", "dop853"})
+      EXPECT_EQ(end_of(on_circle(rate), method), Status::singularity) << rate << ' ' << method;
+}
+
 /// Poles of polynomials over the real numbers, which GiNaC does not factor.
 TEST(CancelledParts, MayHaveIrrationalCoefficients) {
   for (const char* potential : {"(q + sqrt(2))^2/(q + sqrt(2))", "(q + Pi)^2/(q + Pi)^2 + q",

@@ -78,6 +78,23 @@ TEST(ErrorEstimate, RoundingOfTheDataIsCounted) {
   EXPECT_LT(input(GiNaC::numeric(1, 3)), 1e-15);
 }
 
+/// sin(w/10) with the double next to 1/10, by the closed form, which takes no other roundings.
+TEST(ErrorEstimate, TheRoundingOfTheDurationIsCounted) {
+  for (const int digits : {7, 10}) {
+    const Model model = model_of(
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"10^" +
+        std::to_string(digits) + "*y\"\ny = \"-10^" + std::to_string(digits) +
+        "*x\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"1\", y = \"0\" }\n"
+        "duration = \"1/10\"\n");
+    SolveOptions options;
+    options.method = "exact";
+    const Solution motion = solve(model, model.scene("default"), options);
+    const double off = std::abs(motion.trajectory().state[1] + std::sin(std::pow(10., digits - 1)));
+    EXPECT_GT(motion.trust().error_estimate, off / 2) << digits;
+    EXPECT_LT(motion.trust().error_estimate, 1e-16 * std::pow(10., digits)) << digits;
+  }
+}
+
 // From x = 1 + 1/K the motion has its pole at t = 1; from x = 1, which is what is left of that, it
 // rests.
 TEST(ErrorEstimate, AStartThatRoundsToARestIsInDoubt) {

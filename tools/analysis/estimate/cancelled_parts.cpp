@@ -7,6 +7,8 @@
 #include <set>
 
 #include "codegen/program_of.hpp"
+#include "runtime/evaluate.hpp"
+#include "runtime/program/term_size.hpp"
 #include "runtime/step/between_places.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/algebra/number_text.hpp"
@@ -141,37 +143,59 @@ bool is_root_of_squares(const ex& part) {
          is_sum_of_squares(part.op(0));
 }
 
-/// The functions that are negative where a part has no value: those of roots, logarithms and arcs.
-std::vector<ex> bounds_of(const ex& part) {
-  if (GiNaC::is_a<GiNaC::power>(part) && !part.op(1).info(GiNaC::info_flags::integer))
-    return {part.op(0)};
-  if (!GiNaC::is_exactly_a<GiNaC::function>(part)) return {};
-  const std::string name = GiNaC::ex_to<GiNaC::function>(part).get_name();
-  if (name == "log") return {part.op(0)};
-  if (name == "asin" || name == "acos") return {1 - part.op(0), 1 + part.op(0)};
-  return {};
+/// The factors of a product, as 2 and (2 x - 1)^(-1) of 1/(x - 1/2); else the expression itself.
+std::vector<ex> factors_of(const ex& part) {
+  if (!GiNaC::is_a<GiNaC::mul>(part)) return {part};
+  return {part.begin(), part.end()};
+}
+
+/// Functions that are negative where a part has no value: those of roots, logarithms and arcs.
+struct Bounds {
+  std::vector<ex> functions;
+  bool closed = true;  ///< it has a value where one is zero
+};
+
+Bounds bounds_of(const ex& part) {
+  Bounds result;
+  for (const ex& factor : factors_of(part)) {
+    if (GiNaC::is_a<GiNaC::power>(factor) && !factor.op(1).info(GiNaC::info_flags::integer)) {
+      result.functions.push_back(factor.op(0));
+      result.closed = result.closed && factor.op(1).info(GiNaC::info_flags::positive);
+    }
+    if (!GiNaC::is_exactly_a<GiNaC::function>(factor)) continue;
+    const std::string name = GiNaC::ex_to<GiNaC::function>(factor).get_name();
+    if (name == "log") {
+      result.functions.push_back(factor.op(0));
+      result.closed = false;
+    }
+    if (name == "asin" || name == "acos") {
+      result.functions.push_back(1 - factor.op(0));
+      result.functions.push_back(1 + factor.op(0));
+    }
+  }
+  return result;
 }
 
 /// The polynomials whose changes of sign are poles of a part that doubles may step over; none where
 /// it is no pole of a polynomial.
 std::vector<ex> zeros_of_pole(const ex& part, const std::vector<GiNaC::symbol>& symbols) {
-  if (!GiNaC::is_a<GiNaC::power>(part) || !part.op(1).info(GiNaC::info_flags::negative)) return {};
   GiNaC::lst list;
   for (const GiNaC::symbol& symbol : symbols) list.append(symbol);
-  if (!part.op(0).is_polynomial(list)) return {};
-  // Of even powers only the bases change their sign. GiNaC factors over the rational numbers.
-  const ex base = part.op(0).expand();
-  const ex factors =
-      base.info(GiNaC::info_flags::rational_polynomial) ? GiNaC::sqrfree(base) : part.op(0);
   std::vector<ex> zeros;
   const auto add = [&](const ex& factor) {
     const ex root = GiNaC::is_a<GiNaC::power>(factor) ? factor.op(0) : factor;
     if (has_any(root, symbols)) zeros.push_back(root);
   };
-  if (GiNaC::is_a<GiNaC::mul>(factors))
-    for (const ex& factor : factors) add(factor);
-  else
-    add(factors);
+  for (const ex& pole : factors_of(part)) {
+    if (!GiNaC::is_a<GiNaC::power>(pole) || !pole.op(1).info(GiNaC::info_flags::negative) ||
+        !pole.op(0).is_polynomial(list))
+      continue;
+    // Of even powers only the bases change their sign. GiNaC factors over the rational numbers.
+    const ex base = pole.op(0).expand();
+    const ex factors =
+        base.info(GiNaC::info_flags::rational_polynomial) ? GiNaC::sqrfree(base) : pole.op(0);
+    for (const ex& factor : factors_of(factors)) add(factor);
+  }
   return zeros;
 }
 
@@ -240,12 +264,17 @@ CancelledParts::CancelledParts(const Model& model, const PreparedScene& run, Sta
       shown_.push_back(how);
       texts_.push_back(printable(expression_text(part), 80));
     };
-    watch(part, Shown::by_value);
+    const Bounds bounds = bounds_of(part);
+    // Rounding takes a radicand that touches zero below it, where the root is no number.
+    const bool may_touch = bounds.closed && !bounds.functions.empty();
+    if (!may_touch) watch(part, Shown::by_value);
     for (const ex& zero : zeros_of_pole(part, symbols)) watch(zero, Shown::by_sign);
-    for (const ex& bound : bounds_of(part)) watch(bound, Shown::below_zero);
+    for (const ex& bound : bounds.functions)
+      watch(bound, may_touch ? Shown::far_below_zero : Shown::below_zero);
   }
   if (parts.empty()) return;
-  values_.emplace(program_of(parts, symbols));
+  program_ = program_of(parts, symbols);
+  values_.emplace(program_);
   inputs_.resize(symbols.size());
   now_.resize(parts.size());
   within_.resize(s.states.size());
@@ -261,6 +290,13 @@ void CancelledParts::evaluate(double t, const double* x, std::vector<double>& va
   for (std::size_t i = 0; i < places_.size(); ++i) inputs_[places_[i]] = x[i];
   if (has_time_) inputs_.back() = t;
   (*values_)(inputs_.data(), values.data());
+}
+
+/// The size of the largest term of a function where it was evaluated last.
+double CancelledParts::size_of(std::size_t which) const {
+  std::vector<SizedNumber> inputs;
+  for (const double input : inputs_) inputs.push_back(Arithmetic<SizedNumber>::plain(input));
+  return static_cast<double>(std::abs(casimir::evaluate(program_, inputs)[which].size));
 }
 
 /// Times within a step at which to look. A function that has turned between three of them is looked
@@ -310,8 +346,10 @@ bool CancelledParts::see(double t, const double* x) {
   for (std::size_t k = 0; k < now_.size() && !lost_; ++k) {
     const bool passed =
         shown_[k] == Shown::by_sign && !are_apart_ && !before_.empty() && now_[k] * before_[k] < 0;
-    if (!std::isfinite(now_[k]) || passed || (shown_[k] == Shown::below_zero && now_[k] < 0))
-      lost_ = k;
+    const bool below =
+        now_[k] < 0 && (shown_[k] == Shown::below_zero ||
+                        (shown_[k] == Shown::far_below_zero && -now_[k] > little_ * size_of(k)));
+    if (!std::isfinite(now_[k]) || passed || below) lost_ = k;
   }
   if (lost_) {
     lost_time_ = t;
@@ -325,6 +363,8 @@ bool CancelledParts::see(double t, const double* x) {
 
 void CancelledParts::watch(Settings& settings) {
   if (!any()) return;
+  constexpr double kSteps = 1000;
+  if (!(settings.fixed_step > 0)) little_ = std::max(little_, kSteps * settings.rtol);
   settings.watch_within = [this](double t, const double* x, const auto& state_at) {
     see(t, x, state_at);
   };

@@ -65,9 +65,11 @@ class CancelledParts {
   enum class Shown {
     by_value,  ///< it has none itself
     by_sign,   ///< it changes its sign, as p of 1/p^2
-    below_zero
+    below_zero,
+    far_below_zero  ///< by more than the error of the state may make of zero
   };
 
+  double size_of(std::size_t which) const;
   void evaluate(double t, const double* x, std::vector<double>& values);
   std::vector<double> places_within(double t,
                                     const std::function<void(double t, double* x)>& state_at);
@@ -75,7 +77,9 @@ class CancelledParts {
   bool has_time_, are_apart_;
   std::vector<std::string> texts_;  ///< of the part that each function is of
   std::vector<Shown> shown_;        ///< of each function
+  Program program_;                 ///< of the functions
   std::optional<Interpreter> values_;
+  double little_ = 1e-12;            ///< what the error of the state may be
   std::vector<std::size_t> places_;  ///< among the inputs of `values_`, of each state
   std::vector<double> inputs_, now_, before_, within_;
   double time_ = 0;  ///< of the last step at which all had values

@@ -338,10 +338,34 @@ bool ErrorEstimate::died_out() const {
 
 namespace {
 
+/// What rounding the duration to double does to the end state, relative to the sizes.
+double moved_by_duration(const PreparedScene& run, const CompiledModule& compiled,
+                         const Settings& settings, const Trajectory& trajectory,
+                         const std::vector<double>& sizes) {
+  double rounding = std::abs(run.duration_rounding);
+  if (settings.duration != run.duration) {
+    // One that is given with a command is a decimal; with few binary digits it is that exactly.
+    constexpr int kFewBits = 20;
+    const double scaled = std::ldexp(settings.duration, kFewBits);
+    rounding = scaled == std::floor(scaled) ? 0 : kRoundoff * std::abs(settings.duration);
+  }
+  if (rounding == 0) return 0;
+  std::vector<double> rates(trajectory.state.size());
+  compiled.module.functions().rhs(trajectory.time, trajectory.state.data(),
+                                  run.parameters.empty() ? nullptr : run.parameters.data(),
+                                  rates.data());
+  double moved = 0;
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    if (std::isfinite(rates[i]) && sizes[i] > 0)
+      moved = std::max(moved, std::abs(rates[i]) * rounding / sizes[i]);
+  return moved;
+}
+
 /// A closed form is made of the exact numbers of the scene and takes no steps: neither rounding the
-/// data nor what grows on the way is an error of it.
-ErrorEstimate assess_closed_form(const PreparedScene& run, double error, const Method& method,
-                                 const Settings& settings, const Trajectory& trajectory) {
+/// data, but for the duration, nor what grows on the way is an error of it.
+ErrorEstimate assess_closed_form(const PreparedScene& run, const CompiledModule& compiled,
+                                 double error, const Method& method, const Settings& settings,
+                                 const Trajectory& trajectory) {
   ErrorEstimate trust;
   const std::vector<double> sizes = sizes_of(trajectory);
   const std::optional<Conditioning> flow =
@@ -349,7 +373,8 @@ ErrorEstimate assess_closed_form(const PreparedScene& run, double error, const M
   trust.known = true;
   trust.conditioning = flow ? flow->at_end : 1;
   trust.on_the_way = flow ? flow->on_the_way() : 1;
-  trust.error_estimate = error;
+  trust.input_rounding = moved_by_duration(run, compiled, settings, trajectory, sizes);
+  trust.error_estimate = error + trust.input_rounding;
   if (flow && flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
     trust.followed = flow->followed;
   // Where another method gets there, what it says must agree as far as its own errors go.
@@ -367,7 +392,7 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
   if (trajectory.status != Status::ok) return trust;
   if (method.closed_form)
     if (const std::optional<double> error = closed_form_error(run))
-      return assess_closed_form(run, *error, method, settings, trajectory);
+      return assess_closed_form(run, compiled, *error, method, settings, trajectory);
   const std::vector<double> sizes = sizes_of(trajectory);
   const std::size_t n = run.initial.size();
   Neighbours neighbours(run, compiled, method, settings, trajectory, sizes);
@@ -398,6 +423,7 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     trust.unconfirmed = trust.unconfirmed || std::isinf(moved);
     if (std::isfinite(moved)) trust.input_rounding += moved;
   }
+  trust.input_rounding += moved_by_duration(run, compiled, settings, trajectory, sizes);
   if (repeated && trajectory.seconds < budget)
     trust.input_rounding = std::max(trust.input_rounding, unforeseen(neighbours, run, flow, sizes));
   trust.error_estimate =

@@ -89,6 +89,7 @@ PreparedScene prepare(const Model& model, const Scene& scene, const SceneOptions
     run.parameter_rounding.push_back(remainder(values[next], run.parameters.back()));
   }
   run.duration = rounded(values[next]);
+  run.duration_rounding = remainder(values[next], run.duration);
   run.where = scene.where;
   run.hamiltonian = scene_hamiltonian(model, scene, s.states, s.parameters, run.no_hamiltonian);
   run.generate_seconds = seconds_since(start);

@@ -24,6 +24,7 @@ struct PreparedScene {
   std::vector<double> parameters;  ///< at run time; empty when folded
   std::vector<double> parameter_rounding;
   double duration = 0;                          ///< see `duration_of`
+  double duration_rounding = 0;                 ///< what rounding it to double left out
   Location where;                               ///< of the scene in its file
   std::optional<SceneHamiltonian> hamiltonian;  ///< of a method that needs it
   std::string no_hamiltonian;                   ///< why there is none
