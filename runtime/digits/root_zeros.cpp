@@ -8,8 +8,9 @@
 namespace casimir {
 namespace {
 
-/// Of the largest value that a radicand has had. Places in a step are known to 10^(-16) of it, and
-/// a radicand that touches zero is about the square of that at the nearest.
+/// Of the largest value of a radicand in a step. Places in it are known to 10^(-16) of it, and a
+/// radicand that touches zero is about the square of that at the nearest. Steps beside one that
+/// only comes near zero are as short as it is near.
 constexpr double kZero = 1e-27;
 
 }  // namespace
@@ -31,8 +32,7 @@ RootZeros::RootZeros(const Program& rhs, std::vector<double> parameters)
     radicands.output_names.emplace_back("radicand");
   }
   if (radicands.outputs.empty()) return;
-  highest_.assign(radicands.outputs.size(), 0);
-  values_.resize(highest_.size());
+  values_.resize(radicands.outputs.size());
   inputs_.resize(states_);
   inputs_.insert(inputs_.end(), parameters.begin(), parameters.end());
   inputs_.push_back(0);
@@ -48,19 +48,20 @@ const std::vector<double>& RootZeros::radicands(double part, const StateAt& stat
 std::optional<double> RootZeros::zero_in(const StateAt& state_at) {
   constexpr std::size_t kPlaces = 17;
   std::vector<std::vector<double>> sampled(kPlaces);
+  std::vector<double> highest(values_.size(), 0);
   for (std::size_t i = 0; i < kPlaces; ++i) {
     sampled[i] = radicands(static_cast<double>(i) / (kPlaces - 1), state_at);
-    for (std::size_t k = 0; k < highest_.size(); ++k)
-      highest_[k] = std::max(highest_[k], sampled[i][k]);
+    for (std::size_t k = 0; k < highest.size(); ++k)
+      highest[k] = std::max(highest[k], sampled[i][k]);
   }
   const auto place_of = [](std::size_t i) { return static_cast<double>(i) / (kPlaces - 1); };
-  for (std::size_t k = 0; k < highest_.size(); ++k) {
+  for (std::size_t k = 0; k < highest.size(); ++k) {
     for (std::size_t i = 0; i < kPlaces; ++i) {
       const std::size_t before = i > 0 ? i - 1 : i, behind = i + 1 < kPlaces ? i + 1 : i;
       if (sampled[before][k] < sampled[i][k] || sampled[behind][k] < sampled[i][k]) continue;
-      if (sampled[i][k] <= kZero * highest_[k]) return place_of(i);
+      if (sampled[i][k] <= kZero * highest[k]) return place_of(i);
       const double place = least_between(place_of(before), place_of(behind), k, state_at);
-      if (radicands(place, state_at)[k] <= kZero * highest_[k]) return place;
+      if (radicands(place, state_at)[k] <= kZero * highest[k]) return place;
     }
   }
   return std::nullopt;

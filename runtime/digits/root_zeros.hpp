@@ -20,7 +20,7 @@ class RootZeros {
   RootZeros(const Program& rhs, std::vector<double> parameters);
 
   /// Whether there are such roots.
-  bool any() const { return !highest_.empty(); }
+  bool any() const { return !values_.empty(); }
 
   /// Writes the state at a part of a step, from 0 to 1, and returns the time.
   using StateAt = std::function<double(double part, double* x)>;
@@ -34,7 +34,6 @@ class RootZeros {
   std::size_t states_;
   std::optional<Interpreter> evaluate_;
   std::vector<double> inputs_, values_;
-  std::vector<double> highest_;  ///< of each radicand, so far
 };
 
 }  // namespace casimir

@@ -438,6 +438,15 @@ TEST(PreciseRun, EndsWhereARootMakesSolutionsPart) {
   EXPECT_NE(parts.reason.find("more than one solution"), std::string::npos) << parts.reason;
   EXPECT_LE(cln::double_approx(parts.time), 1);
   EXPECT_EQ(run(cln::cl_RA("1/1000000"), cln::cl_RA("1/3")).status, Status::ok);
+  // As near as that the steps are short; the radicand of x = t - 1 has no zero.
+  Builder near({"x", "y"});
+  near.output(near.number(1));
+  near.output(near.op(
+      Op::pow,
+      near.op(Op::add, near.op(Op::mul, 0, 0), near.number(1 / cln::expt(cln::cl_RA(10), 30))),
+      near.number(cln::cl_RA("1/3"))));
+  const Program passes = near.program();
+  EXPECT_EQ(agreed_run(problem(passes, {-1, 0, 2}), 40).run.status, Status::ok);
   EXPECT_GT(cln::double_approx(parts.time), 0.999);
   EXPECT_EQ(run(0, cln::cl_RA("2/3")).status, Status::ok);
   // The same as powers of |x|.
