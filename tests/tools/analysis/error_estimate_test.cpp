@@ -78,6 +78,26 @@ TEST(ErrorEstimate, RoundingOfTheDataIsCounted) {
   EXPECT_LT(input(GiNaC::numeric(1, 3)), 1e-15);
 }
 
+/// Radau's method of order 9 interpolates between its steps with order 5.
+TEST(ErrorEstimate, OfSamplesIsToldFromThatOfTheEnd) {
+  const Oscillator oscillator;
+  const Scene scene = scene_from(oscillator.model, {1, 0}, 10);
+  SolveOptions options;
+  options.method = "radau9";
+  options.run.rtol = 1e-10;
+  options.sample_every = 0.37;
+  const Solution motion = solve(oscillator.model, scene, options);
+  double off = 0;
+  for (std::size_t k = 0; k < motion.trajectory().samples.size(); ++k)
+    off = std::max(off, std::abs(motion.trajectory().samples[k][0] -
+                                 std::cos(motion.trajectory().sample_times[k])));
+  ASSERT_TRUE(motion.trust().samples_error);
+  EXPECT_GT(off, 10 * motion.trust().error_estimate);
+  EXPECT_NEAR(*motion.trust().samples_error / off, 1, 0.5);
+  options.method = "taylor";
+  EXPECT_FALSE(solve(oscillator.model, scene, options).trust().samples_error);
+}
+
 /// sin(w/10) with the double next to 1/10, by the closed form, which takes no other roundings.
 TEST(ErrorEstimate, TheRoundingOfTheDurationIsCounted) {
   for (const int digits : {7, 10}) {

@@ -109,6 +109,20 @@ class Neighbours {
   }
   const Trajectory& better() const { return better_; }
 
+  /// How far the samples are from those of a run with a tighter tolerance.
+  std::optional<double> distance_of_samples(const Trajectory& trajectory, double every) const {
+    Settings again = tight_;
+    again.sample_every = every;
+    const Trajectory other =
+        integrate(compiled_.module, method_, again, run_.initial, run_.parameters);
+    if (other.status != Status::ok || other.samples.size() != trajectory.samples.size())
+      return std::nullopt;
+    double largest = 0;
+    for (std::size_t k = 0; k < other.samples.size(); ++k)
+      largest = std::max(largest, distance(other.samples[k], trajectory.samples[k], sizes_));
+    return largest;
+  }
+
   /// How far the end is moved where each state of the scene that has been rounded begins at the
   /// next double on the other side of its exact value: by more than what small changes grow to
   /// where the rounded start rests and the exact one does not. Infinite where that run fails;
@@ -439,6 +453,8 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
         std::max({trust.error_estimate, least_of_rounding(growth, settings, trajectory),
                   least_of_equal_steps(growth, settings, trajectory, neighbours.better())});
   }
+  if (repeated && !method.series && settings.sample_every > 0)
+    trust.samples_error = neighbours.distance_of_samples(trajectory, settings.sample_every);
   if (grows(run, sizes)) trust.error_estimate += kRoundoff * static_cast<double>(trajectory.steps);
   if (!method.series || may_hide) {
     const CrossCheck check =

@@ -9,12 +9,15 @@ namespace casimir {
 
 /// How far the end state of a run can be believed. Relative to the size of each state.
 struct ErrorEstimate {
-  bool known = false;          ///< false: the variational equations could not be integrated
-  double conditioning = 0;     ///< largest growth of a small change of the initial state
-  double on_the_way = 0;       ///< the same up to any time before the end
-  double input_rounding = 0;   ///< error from rounding the scene's exact data to double
-  double error_estimate = 0;   ///< difference to a run with a hundredth of the tolerance or less,
-                               ///< and what double arithmetic alone costs
+  bool known = false;         ///< false: the variational equations could not be integrated
+  double conditioning = 0;    ///< largest growth of a small change of the initial state
+  double on_the_way = 0;      ///< the same up to any time before the end
+  double input_rounding = 0;  ///< error from rounding the scene's exact data to double
+  double error_estimate = 0;  ///< difference to a run with a hundredth of the tolerance or less,
+                              ///< and what double arithmetic alone costs
+  /// The same of the samples, where they were asked for and are interpolated with a formula of
+  /// their own, whose error is not that of the steps.
+  std::optional<double> samples_error;
   bool unconfirmed = false;    ///< a run with a tighter tolerance fails: there is no estimate
   bool beyond_double = false;  ///< rounding alone spoils all but a few digits, at the end or before
   /// Up to when rounding leaves six digits, where it does not to the end.

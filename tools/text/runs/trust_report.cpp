@@ -33,6 +33,7 @@ nlohmann::ordered_json to_json(const ErrorEstimate& trust) {
     json["conditioning_on_the_way"] = exact_text(trust.on_the_way);
   if (!trust.unconfirmed) json["error_estimate"] = exact_text(trust.error_estimate);
   if (trust.six_digits_until) json["six_digits_until"] = exact_text(*trust.six_digits_until);
+  if (trust.samples_error) json["samples_error"] = exact_text(*trust.samples_error);
   if (trust.followed) json["extrapolated_from"] = exact_text(*trust.followed);
   return json;
 }
@@ -69,6 +70,13 @@ std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_s
                                    : constant_step ? ": take a smaller --step"
                                                    : ": tighten --tolerance"));
   }
+  constexpr double kMuchMore = 10, kRounding = 1e-14;
+  if (trust.samples_error && !trust.unconfirmed &&
+      *trust.samples_error > kMuchMore * std::max(trust.error_estimate, kRounding))
+    warnings.push_back(fmt::format(
+        "the samples may be off by {:.0e} of the sizes of the states, the end by less: between its "
+        "steps this method interpolates; --method taylor is as exact there",
+        *trust.samples_error));
   return warnings;
 }
 
