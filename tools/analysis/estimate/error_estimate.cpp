@@ -453,7 +453,7 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
         std::max({trust.error_estimate, least_of_rounding(growth, settings, trajectory),
                   least_of_equal_steps(growth, settings, trajectory, neighbours.better())});
   }
-  if (repeated && !method.series && settings.sample_every > 0)
+  if (repeated && settings.sample_every > 0)
     trust.samples_error = neighbours.distance_of_samples(trajectory, settings.sample_every);
   if (grows(run, sizes)) trust.error_estimate += kRoundoff * static_cast<double>(trajectory.steps);
   if (!method.series || may_hide) {

@@ -15,8 +15,8 @@ struct ErrorEstimate {
   double input_rounding = 0;  ///< error from rounding the scene's exact data to double
   double error_estimate = 0;  ///< difference to a run with a hundredth of the tolerance or less,
                               ///< and what double arithmetic alone costs
-  /// The same of the samples, where they were asked for and are interpolated with a formula of
-  /// their own, whose error is not that of the steps.
+  /// The same of the samples, where they were asked for: on the way the state may be off by more
+  /// than at the end, and methods have formulas of their own between their steps.
   std::optional<double> samples_error;
   bool unconfirmed = false;    ///< a run with a tighter tolerance fails: there is no estimate
   bool beyond_double = false;  ///< rounding alone spoils all but a few digits, at the end or before

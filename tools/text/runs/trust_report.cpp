@@ -73,10 +73,10 @@ std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_s
   constexpr double kMuchMore = 10, kRounding = 1e-14;
   if (trust.samples_error && !trust.unconfirmed &&
       *trust.samples_error > kMuchMore * std::max(trust.error_estimate, kRounding))
-    warnings.push_back(fmt::format(
-        "the samples may be off by {:.0e} of the sizes of the states, the end by less: between its "
-        "steps this method interpolates; --method taylor is as exact there",
-        *trust.samples_error));
+    warnings.push_back(
+        fmt::format("the samples may be off by {:.0e} of the sizes of the states, which is more "
+                    "than the end is",
+                    *trust.samples_error));
   return warnings;
 }
 
