@@ -363,8 +363,8 @@ bool CancelledParts::see(double t, const double* x) {
 
 void CancelledParts::watch(Settings& settings) {
   if (!any()) return;
-  constexpr double kSteps = 1000;
-  if (!(settings.fixed_step > 0)) little_ = std::max(little_, kSteps * settings.rtol);
+  constexpr double kOfTolerance = 1000;
+  if (!(settings.fixed_step > 0)) little_ = std::max(little_, kOfTolerance * settings.rtol);
   settings.watch_within = [this](double t, const double* x, const auto& state_at) {
     see(t, x, state_at);
   };
