@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "tools/analysis/estimate/cancelled_parts.hpp"
-#include "tools/analysis/run/drift_check.hpp"
+#include "tools/analysis/run/doubted_invariants.hpp"
 #include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/cli/case_library.hpp"

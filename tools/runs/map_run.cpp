@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "tools/analysis/run/drift_check.hpp"
+#include "tools/analysis/run/doubted_invariants.hpp"
 #include "tools/analysis/run/iterate.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"

@@ -3,12 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/ensemble.hpp"
 #include "runtime/integrate.hpp"
-#include "symbolic/discrete/map_model.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/prove.hpp"
-#include "tools/analysis/run/iterate.hpp"
 
 namespace casimir {
 
@@ -24,15 +21,6 @@ struct DriftDoubts {
 /// \param names  of the invariants of the trajectory, "H" and those of the file
 DriftDoubts check_drift(const Model& model, const std::vector<std::string>& names,
                         Trajectory& trajectory);
-
-/// The same of an ensemble: a sentence about each invariant that changed by much more in some
-/// member than the tolerance allows, and is not proved to be an integral.
-std::vector<std::string> doubts_of_members(const Model& model,
-                                           const std::vector<std::string>& names,
-                                           const EnsembleResult& result, double rtol);
-
-/// The same of an orbit of a map: much more than rounding does to its states.
-std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& orbit);
 
 /// What can be proved of that invariant of the case, "H" or one of the file, as an integral.
 Proof proof_of(const Model& model, const std::string& invariant);

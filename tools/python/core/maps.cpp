@@ -13,7 +13,7 @@
 #include "symbolic/discrete/prove_map.hpp"
 #include "symbolic/discrete/search_map.hpp"
 #include "symbolic/expression/expression.hpp"
-#include "tools/analysis/run/drift_check.hpp"
+#include "tools/analysis/run/doubted_invariants.hpp"
 #include "tools/analysis/run/iterate.hpp"
 #include "tools/analysis/scene_values.hpp"
 #include "tools/cli/case_library.hpp"

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "tools/analysis/error.hpp"
-#include "tools/analysis/run/drift_check.hpp"
+#include "tools/analysis/run/doubted_invariants.hpp"
 #include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/analysis/solve.hpp"

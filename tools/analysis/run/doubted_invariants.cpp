@@ -1,0 +1,54 @@
+#include "tools/analysis/run/doubted_invariants.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/analysis/proof/prove_in_process.hpp"
+#include "tools/analysis/run/drift_check.hpp"
+
+namespace casimir {
+
+std::string doubt_of_invariant(const std::string& name, double change, Verdict verdict) {
+  return fmt::format("{} changes by {:.1e} of its size, and it is {} to be an integral", name,
+                     change, verdict == Verdict::refuted ? "refuted" : "not proved");
+}
+
+std::vector<std::string> doubts_of_members(const Model& model,
+                                           const std::vector<std::string>& names,
+                                           const EnsembleResult& result, double rtol) {
+  constexpr double kTimes = 1e4, kLeast = 1e-9;
+  std::vector<std::string> doubts;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    double drift = 0;
+    for (const MemberResult& member : result.members)
+      if (i < member.invariants.size()) drift = std::max(drift, member.invariants[i].drift);
+    if (drift <= std::max(kLeast, kTimes * rtol)) continue;
+    if (const Verdict verdict = verdict_on(model, names[i]); verdict != Verdict::proved)
+      doubts.push_back(doubt_of_invariant(names[i], drift, verdict));
+  }
+  return doubts;
+}
+
+std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& orbit) {
+  constexpr double kTimes = 100, kLeast = 1e-9, kSecondsForOrbit = 10;
+  const double allowed = std::max(kLeast, kTimes * orbit.error_estimate.value_or(0));
+  const auto changes = [&](const Iterated::Invariant& one) { return one.drift > allowed; };
+  std::vector<std::string> doubts;
+  if (std::ranges::none_of(orbit.invariants, changes)) return doubts;
+  const std::vector<Proof> proofs = prove_within(kSecondsForOrbit, map, {}, {});
+  for (const Iterated::Invariant& one : orbit.invariants) {
+    if (!changes(one)) continue;
+    const auto found = std::ranges::find_if(proofs, [&](const Proof& proof) {
+      return proof.name == one.name &&
+             (proof.kind == ClaimKind::integral || proof.kind == ClaimKind::conditional ||
+              proof.kind == ClaimKind::casimir);
+    });
+    const Verdict verdict = found == proofs.end() ? Verdict::undecided : found->verdict;
+    if (verdict != Verdict::proved)
+      doubts.push_back(doubt_of_invariant(one.name, one.drift, verdict));
+  }
+  return doubts;
+}
+
+}  // namespace casimir

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/ensemble.hpp"
+#include "symbolic/discrete/map_model.hpp"
+#include "symbolic/prove.hpp"
+#include "tools/analysis/run/iterate.hpp"
+
+namespace casimir {
+
+/// The sentence about an invariant that changed and is not proved to be an integral.
+/// \param change  relative to its size
+std::string doubt_of_invariant(const std::string& name, double change, Verdict verdict);
+
+/// Sentences about the invariants that changed by much more in some member of an ensemble than the
+/// tolerance allows, and are not proved to be integrals.
+std::vector<std::string> doubts_of_members(const Model& model,
+                                           const std::vector<std::string>& names,
+                                           const EnsembleResult& result, double rtol);
+
+/// The same of an orbit of a map: much more than rounding does to its states.
+std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& orbit);
+
+}  // namespace casimir
