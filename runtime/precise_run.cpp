@@ -66,7 +66,7 @@ class Runner {
         bits_(bits_for(digits)),
         precision_(bits_),
         order_(static_cast<int>(kOrderPerDigit * (digits + kGuardDigits)) + 4),
-        format_(cln::float_format(static_cast<uintE>(digits + kGuardDigits))) {
+        format_(cln::float_format(static_cast<uintE>(digits) + kGuardDigits)) {
     const std::size_t states = problem.rhs->outputs.size();
     std::vector<BigFloat> start;
     for (const cln::cl_R& value : problem.start(digits + kGuardDigits)) start.emplace_back(value);
