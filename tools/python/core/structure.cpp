@@ -28,6 +28,16 @@ py::dict table_of(const std::vector<std::pair<std::string, std::string>>& entrie
   return result;
 }
 
+/// Fields and tensors that the motion multiplies by a function.
+template <class Found>
+py::list with_factors(const std::vector<Found>& list) {
+  py::list result;
+  for (const Found& own : list)
+    result.append(py::dict("components"_a = table_of(own.texts), "factor"_a = own.factor_text,
+                           "degree"_a = own.degree, "verdict"_a = to_string(own.verdict)));
+  return result;
+}
+
 py::object rational(const Case& self, int degree, double seconds, double memory) {
   Interrupt interrupt;
   const auto find = [&] {
@@ -67,11 +77,7 @@ py::object conformal_tensors(const Case& self, int rank, bool forms, int degree,
                                              watched(interrupt, seconds, memory));
   };
   return exactly(interrupt, find, [](const structure::ConformalReport& report) {
-    py::list found;
-    for (const structure::ConformalTensor& own : report.found)
-      found.append(py::dict("components"_a = table_of(own.texts), "factor"_a = own.factor_text,
-                            "degree"_a = own.degree, "verdict"_a = to_string(own.verdict)));
-    return py::dict("found"_a = found, "trivial"_a = report.trivial,
+    return py::dict("found"_a = with_factors(report.found), "trivial"_a = report.trivial,
                     "verdict"_a = verdict_of(report.complete),
                     "rational"_a = verdict_of(report.complete_rational),
                     "constant_factors"_a = verdict_of(report.complete_constants),
@@ -87,11 +93,7 @@ py::object orbital_symmetries(const Case& self, int degree, double seconds, doub
                                               watched(interrupt, seconds, memory));
   };
   return exactly(interrupt, find, [](const structure::OrbitalReport& report) {
-    py::list found;
-    for (const structure::OrbitalSymmetry& own : report.found)
-      found.append(py::dict("components"_a = table_of(own.texts), "factor"_a = own.factor_text,
-                            "degree"_a = own.degree, "verdict"_a = to_string(own.verdict)));
-    return py::dict("found"_a = found, "trivial"_a = report.trivial,
+    return py::dict("found"_a = with_factors(report.found), "trivial"_a = report.trivial,
                     "verdict"_a = verdict_of(report.complete), "reason"_a = report.reason,
                     "generic"_a = report.generic);
   });

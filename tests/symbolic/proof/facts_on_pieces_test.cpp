@@ -1,0 +1,210 @@
+// The hypotheses of the theorems behind facts on pieces of the domain: each test drops one.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "symbolic/proof/generic_rank.hpp"
+#include "symbolic/proof/points/real_level_point.hpp"
+#include "tests/symbolic/proof/proof_of_text.hpp"
+
+namespace casimir::test {
+namespace {
+
+std::string canonical(const std::string& integral) {
+  return "integrable = true\nhamiltonian = \"p1^2\"\n[phase_space]\n"
+         "variables = [\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = true\n[integrals]\nF = \"" +
+         integral + "\"\n";
+}
+
+TEST(Facts, HoldOnEachPiece) {
+  EXPECT_EQ(proof_in_case("liouville", canonical("p2")).verdict, Verdict::proved);
+  EXPECT_EQ(proof_in_case("liouville", canonical("p2*exp(p1)")).verdict, Verdict::proved);
+  // On each of the two pieces, and each has its own point.
+  const Proof both = proof_in_case("liouville", canonical("2*sqrt(p2^2) + p2"));
+  EXPECT_EQ(both.verdict, Verdict::proved);
+  EXPECT_TRUE(both.where.empty());
+  for (const char* one : {"sqrt(p2^2) + p2", "sqrt(p2^2)*p2 - p2^2"}) {
+    EXPECT_NE(proof_in_case("independence", canonical(one)).verdict, Verdict::proved) << one;
+    EXPECT_NE(proof_in_case("liouville", canonical(one)).verdict, Verdict::proved) << one;
+  }
+}
+
+TEST(Facts, DoNotCountRefutedCasimirFunctions) {
+  const std::string so3 =
+      "hamiltonian = \"M1\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\"]\nalgebra = "
+      "\"so(3)\"\n[casimirs]\n";
+  const auto rank = [&](const std::string& casimirs) {
+    return proof_in_case("rank", so3 + casimirs).evidence;
+  };
+  EXPECT_NE(rank("C = \"M1^2 + M2^2 + M3^2\"\n").find(" 1 independent Casimir function;"),
+            std::string::npos);
+  EXPECT_NE(rank("C = \"M1^2 + M2^2\"\n").find(" 0 independent Casimir functions;"),
+            std::string::npos);
+}
+
+TEST(Facts, DoNotTakeGeneratorsForIndependent) {
+  for (const char* zero :
+       {"p2*(2*sin(asin(p2/10)/2 + acos(p2/10)/2)^2 - 1)",
+        "p2*(2*cos(atan2(p2, p1)/2)^2 - 1 - p1/sqrt(p1^2 + p2^2))",
+        "p2*(4*cos(acos(p2/10)/3)^3 - 3*cos(acos(p2/10)/3) - p2/10)",
+        "p2*(8*cos(Pi/7)*cos(2*Pi/7)*cos(3*Pi/7) - 1)", "p2*(sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2))"}) {
+    EXPECT_NE(proof_in_case("independence", canonical(zero)).verdict, Verdict::proved) << zero;
+    EXPECT_NE(proof_in_case("liouville", canonical(zero)).verdict, Verdict::proved) << zero;
+  }
+}
+
+/// What needs no independence is proved: constants, nested roots, irrational exponents.
+TEST(Facts, NeedNoRationalPoints) {
+  for (const char* function : {"Pi*p2 + p1", "p2*exp(sqrt(2)*p1)", "sqrt(2 + sqrt(3 + sqrt(5)))*p2",
+                               "p2*atan2(p1, 7)", "log(2 + p2^2)"}) {
+    const Proof proof = proof_in_case("liouville", canonical(function));
+    EXPECT_EQ(proof.verdict, Verdict::proved) << function << ": " << proof.reason;
+  }
+}
+
+TEST(Pieces, OfRingsOfFunctions) {
+  const Model model =
+      model_of("[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"0\"\ny = \"0\"\n");
+  const auto pieces = [&](const std::string& text) {
+    const GiNaC::ex value = model.parse({text, {"test", 1, 1}, text});
+    FunctionRing ring(model.variables, {}, {value}, {});
+    return ring.pieces({ring.convert(value)});
+  };
+  EXPECT_TRUE(pieces("x/y + sin(x*y) + exp(x)").rigid);
+  EXPECT_TRUE(pieces("sqrt(x^2 - 1)*sqrt(y)").rigid);
+  // A square in disguise, and branches that differ by a constant from piece to piece.
+  EXPECT_FALSE(pieces("sqrt(1 - sin(x))").rigid);
+  EXPECT_FALSE(pieces("atan(x) + atan(1/x)").rigid);
+  const auto absolute = pieces("sqrt(x^2) + sqrt((x - y)^2)");
+  EXPECT_TRUE(absolute.rigid);
+  EXPECT_EQ(absolute.switches.size(), 2U);
+}
+
+TEST(LowestTerms, CancelWhatNumeratorsKeep) {
+  const Model model =
+      model_of("[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"0\"\ny = \"0\"\n");
+  const GiNaC::ex value = model.parse({"y*x^(3/2)", {"test", 1, 1}, {}});
+  FunctionRing ring(model.variables, {}, {value}, {});
+  const Polynomial slope = ring.derivative(ring.convert(value), 0);  // 3/2*y*sqrt(x)
+  EXPECT_TRUE(ring.lowest_terms(slope).second.is_constant());
+  const Polynomial second = ring.derivative(slope, 0);  // 3/4*y/sqrt(x)
+  EXPECT_FALSE(ring.lowest_terms(second).second.is_constant());
+}
+
+/// The conditions of a fact about two free motions with the second integral F.
+std::set<std::string> conditions_of(const std::string& kind, const std::string& f,
+                                    const std::string& assume_a = "") {
+  const Proof proof =
+      proof_in_case(kind,
+                    "integrable = true\nhamiltonian = \"p1^2 + p2^2\"\n[phase_space]\n"
+                    "variables = [\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = "
+                    "true\n[parameters]\na = { assume = [" +
+                        assume_a + "] }\nb = {}\n[integrals]\nF = \"" + f + "\"\n");
+  EXPECT_EQ(proof.verdict, Verdict::proved) << f << ": " << proof.reason;
+  return {proof.where.begin(), proof.where.end()};
+}
+
+TEST(SpecialParameters, AreConditionsOfIndependenceAndOfLiouvillesCount) {
+  using Set = std::set<std::string>;
+  for (const char* kind : {"independence", "liouville"}) {
+    EXPECT_EQ(conditions_of(kind, "p1"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1"), Set{"a != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(a - 1)*p1 + p1^2 + p2^2"), Set{"a - 1 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(a^2 - 2)*p1"), Set{"a^2 - 2 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1^2 + b*p2^2"), Set{"a - b != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1 + b*p2"), Set{"a^2 + b^2 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(a - 1)*p1 + (b - 2)*p2"), Set{"(a - 1)^2 + (b - 2)^2 != 0"})
+        << kind;
+    // No such values, or none that the assumptions admit.
+    EXPECT_EQ(conditions_of(kind, "(a^2 + 1)*p1"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1", "'a > 1'"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(a - 1)*p1", "'a > 1'"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1^2 + b*p2^2", "'a > b'"), Set{}) << kind;
+  }
+}
+
+TEST(SpecialParameters, InFunctionsAreConditionsToo) {
+  using Set = std::set<std::string>;
+  const Set generic{"a, b are generic"};
+  for (const char* kind : {"independence", "liouville"}) {
+    EXPECT_EQ(conditions_of(kind, "(sin(a) - 1/2)*p1"), Set{"2*sin(a) - 1 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "p1*cos(a*b)"), Set{"cos(a*b) != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(sqrt(a) - 2)*p1", "'a > 0'"), Set{"sqrt(a) - 2 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "tan(a)*p1").count("sin(a) != 0"), 1U) << kind;
+    for (const auto& [f, condition] :
+         {std::pair("(2^a - 4)*p1", "exp(a*log(2)) - 4 != 0"),
+          std::pair("log(a)*p1", "log(a) != 0"), std::pair("p1*acos(a)", "acos(a) != 0")})
+      EXPECT_EQ(conditions_of(kind, f, "'a > 0'").count(condition), 1U) << f;
+    // Dependent at a = b, and at a = Pi/2: no factor shows that.
+    EXPECT_EQ(conditions_of(kind, "sin(a*p1) - sin(b*p1)"), generic) << kind;
+    EXPECT_EQ(conditions_of(kind, "(sin(a) - 1)*p1 + cos(a)*p2"), Set{"a is generic"}) << kind;
+    // A factor without a zero is no condition.
+    EXPECT_EQ(conditions_of(kind, "exp(a)*p1"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "p1/sqrt(a^2 + 1)"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "p1*exp(a*p1)"), Set{}) << kind;
+  }
+}
+
+TEST(SpecialParameters, OfWhichTheAssumptionsAdmitOneRoot) {
+  using Set = std::set<std::string>;
+  for (const char* sign : {"'a > 0'", "'a < 0'"})
+    EXPECT_EQ(conditions_of("independence", "(a^2 - 2)*p1", sign), Set{"a^2 - 2 != 0"}) << sign;
+}
+
+/// The identity, from a plane to a half of it: only where it leads there.
+TEST(Maps, LeadIntoTheDomainOfTheTarget) {
+  const auto map = [](const std::string& domain, const std::string& bracket,
+                      const std::string& image) {
+    return proof_in_case("map",
+                         "hamiltonian = \"p\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+                         "canonical = true\n[[map]]\nname = \"M\"\nto = { variables = "
+                         "[\"u\",\"v\"], domain = [\"" +
+                             domain + "\"], brackets = { \"u,v\" = \"" + bracket +
+                             "\" } }\nexpressions = { u = \"" + image + "\", v = \"p\" }\n");
+  };
+  for (const char* one : {"1", "sqrt(u^2)/u"}) {
+    const Proof half = map("u > 0", one, "q");
+    EXPECT_TRUE(half.verdict == Verdict::undecided ||
+                half.where == std::vector<std::string>{"q > 0"})
+        << one;
+  }
+  const Proof inside = map("u > 0", "u", "exp(q)");
+  EXPECT_EQ(inside.verdict, Verdict::proved);
+  EXPECT_TRUE(inside.where.empty());
+  EXPECT_NE(map("u > 0", "u", "-exp(q)").verdict, Verdict::proved);
+  EXPECT_EQ(map("u < 1", "2", "q").verdict, Verdict::refuted);
+}
+
+TEST(Maps, LeadWhereTheyAreSaidToLeadAlsoWithoutAnInverse) {
+  const auto map = [](const std::string& constraints, const std::string& image) {
+    return proof_in_case("map",
+                         "hamiltonian = \"p\"\n[phase_space]\n" + constraints +
+                             "variables = [\"q\",\"p\"]\ncanonical = true\n"
+                             "[[map]]\nname = \"M\"\nto = { variables = [\"u\",\"v\",\"w\"], "
+                             "brackets = { \"u,v\" = \"1\" } }\nimage = [\"" +
+                             image + "\"]\nexpressions = { u = \"q\", v = \"p\", w = \"3\" }\n");
+  };
+  EXPECT_EQ(map("", "w - 3").verdict, Verdict::proved);
+  EXPECT_EQ(map("", "w - 2").verdict, Verdict::refuted);
+  EXPECT_EQ(map("", "u - v").verdict, Verdict::refuted);
+  EXPECT_EQ(map("constraints = [\"q - p\"]\n", "u - v").verdict, Verdict::proved);
+}
+
+/// z - arg(x + i y) has no derivative along the motion, and jumps by 2 Pi in each turn.
+TEST(Pieces, AnIntegralWithAnAngleIsSaidToJump) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = \"-y\"\ny = \"x\"\n"
+      "z = \"1\"\n");
+  const auto evidence = [&](const std::string& f) {
+    const Proof proof =
+        prove_claim(model, casimir::ClaimKind::integral, model.parse_named({f, {}, {}}));
+    EXPECT_EQ(proof.verdict, Verdict::proved) << f;
+    return proof.evidence;
+  };
+  EXPECT_NE(evidence("z - atan2(y, x)").find("jumps"), std::string::npos);
+  EXPECT_EQ(evidence("atan2(x^2 + y^2, 2)").find("jumps"), std::string::npos);
+  EXPECT_EQ(evidence("atan2(3, x^2 + y^2)").find("jumps"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace casimir::test
