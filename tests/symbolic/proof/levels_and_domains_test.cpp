@@ -3,8 +3,6 @@
 
 #include <set>
 
-#include "symbolic/proof/generic_rank.hpp"
-#include "symbolic/proof/points/real_level_point.hpp"
 #include "tests/symbolic/proof/proof_of_text.hpp"
 
 namespace casimir::test {
