@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
 
 namespace casimir::test {
