@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "symbolic/functions/function_ring.hpp"
 #include "tests/symbolic/proof/proof_of_text.hpp"
 
 namespace casimir::test {
