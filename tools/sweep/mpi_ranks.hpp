@@ -1,17 +1,17 @@
 #pragma once
 
-#include <string>
-
 #include "tools/analysis/sweep/ranks.hpp"
 
 namespace casimir::tools {
+
+struct MpiCalls;
 
 /// The processes that mpirun started, or this one alone. Made and destroyed by all of them
 /// together.
 class MpiRanks : public Ranks {
  public:
-  /// \throws SystemError  under mpirun, if this program was built without MPI: every process would
-  ///                      do the whole sweep
+  /// \throws SystemError  under mpirun, if this program was built without MPI, or its module for MPI does
+  ///                      not load: every process would do the whole sweep
   MpiRanks();
   ~MpiRanks() override;
 
@@ -23,10 +23,7 @@ class MpiRanks : public Ranks {
   void end_all(const std::exception& problem) const override;
 
  private:
-  [[maybe_unused]] bool started_ = false;  ///< in a build with MPI
+  const MpiCalls* calls_ = nullptr;  ///< where several processes were started
 };
-
-/// The MPI that this program was built with, or empty.
-std::string mpi_version();
 
 }  // namespace casimir::tools

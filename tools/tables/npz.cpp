@@ -183,7 +183,7 @@ class Archive {
 
 }  // namespace
 
-std::string libzip_version() { return zip_libzip_version(); }
+bool has_libzip() { return true; }
 
 void write_npz(const std::string& path, const Table& table) {
   OutputFile file(path);
@@ -208,7 +208,7 @@ void write_npz(const std::string& path, const Table& table) {
 
 #else
 
-std::string libzip_version() { return {}; }
+bool has_libzip() { return false; }
 
 void write_npz(const std::string& path, const Table&) { check_table_name(path); }
 

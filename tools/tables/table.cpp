@@ -70,8 +70,8 @@ void write_text(const std::string& path, const Table& table) {
   file.commit();
 }
 
-void need(const std::string& version, const char* library, const char* package) {
-  if (version.empty())
+void need(bool there, const char* library, const char* package) {
+  if (!there)
     throw SystemError(
         fmt::format("casimir was built without {}; install it with: apt-get install {}, and build "
                     "again, or write a .csv file",
@@ -123,8 +123,8 @@ void check_table_name(const std::string& path) {
   if (!ending_of(path).empty() && !is_table_name(path))
     throw UsageError(
         fmt::format("'{}' is no name for a table: {} are", printable(path, 200), kTableNames));
-  if (is_hdf5_name(path)) need(hdf5_version(), "HDF5", "libhdf5-dev");
-  if (ending_of(path) == ".npz") need(libzip_version(), "libzip", "libzip-dev");
+  if (is_hdf5_name(path)) need(has_hdf5(), "HDF5", "libhdf5-dev");
+  if (ending_of(path) == ".npz") need(has_libzip(), "libzip", "libzip-dev");
 }
 
 void write_table(const std::string& path, const Table& table) {

@@ -70,11 +70,11 @@ void write_table(const std::string& path, const Table& table);
 /// depend on the table only. \throws SystemError  also where there is no libzip
 void write_npz(const std::string& path, const Table& table);
 
-/// \throws SystemError  also where there is no HDF5
+/// \throws SystemError  also where the part of casimir that writes HDF5 is not there
 void write_hdf5(const std::string& path, const Table& table);
 
-/// The libraries that this program was built with; empty: without.
-std::string hdf5_version();
-std::string libzip_version();
+/// Whether this program was built with the libraries for them.
+bool has_hdf5();
+bool has_libzip();
 
 }  // namespace casimir::tools
