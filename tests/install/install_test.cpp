@@ -23,6 +23,17 @@ TEST(Install, TheProgramFindsItsCasesFromAnywhere) {
   EXPECT_TRUE(shows(outcome.out, "12 proved, 0 refuted")) << outcome.out;
 }
 
+/// What it is not linked to comes from the folder of libraries.
+TEST(Install, TheProgramFindsItsModules) {
+  const Installed installed;
+  const Outcome outcome = shell(
+      installed,
+      "prefix/bin/casimir sweep kovalevskaya --over r=1/2:3/2:2 --duration 1 --output s.h5\n");
+  const bool built = fs::exists(fs::path(CASIMIR_BUILD_DIR) / "modules" / "casimir_hdf5.so");
+  EXPECT_EQ(outcome.status, built ? 0 : 4) << outcome.err;
+  EXPECT_EQ(fs::exists(installed.path() / "s.h5"), built) << outcome.err;
+}
+
 /// A folder that is configured, with the program and the libraries in it and nothing else: as
 /// tools/start leaves it. Before they are there, nothing is installed.
 TEST(Install, WorksRightAfterTheProgramWasBuiltAndNotBefore) {
@@ -40,12 +51,13 @@ TEST(Install, WorksRightAfterTheProgramWasBuiltAndNotBefore) {
   EXPECT_TRUE(shows(early.err, "There is no")) << early.err;  // CMake breaks lines
   EXPECT_FALSE(fs::exists(folder.path() / "prefix"));
 
-  const Outcome installed =
-      shell(folder, "cd '" + built +
-                        "'\nfor file in casimir */libcasimir_*.a tools/*/libcasimir_*.a; do\n"
-                        "  [ ! -e \"$file\" ] || cp \"$file\" \"$HOME/build/$file\"\ndone\ncd\n"
-                        "ls build/manual && exit 1\n" +
-                        install + "prefix/bin/casimir list\n");
+  const Outcome installed = shell(
+      folder, "cd '" + built +
+                  "'\nmkdir -p \"$HOME/build/modules\"\n"
+                  "for file in casimir modules/*.so */libcasimir_*.a tools/*/libcasimir_*.a; do\n"
+                  "  [ ! -e \"$file\" ] || cp \"$file\" \"$HOME/build/$file\"\ndone\ncd\n"
+                  "ls build/manual && exit 1\n" +
+                  install + "prefix/bin/casimir list\n");
   EXPECT_EQ(installed.status, 0) << installed.out << installed.err;
   EXPECT_TRUE(shows(installed.out, "Clebsch")) << installed.out;
   const auto names = [](const fs::path& prefix) {

@@ -84,7 +84,7 @@ WriteHdf5* writer() { return reinterpret_cast<WriteHdf5*>(module_symbol(kHdf5Mod
 
 bool has_hdf5() {
 #ifdef CASIMIR_HDF5
-  return true;
+  return writer() != nullptr;
 #else
   return false;
 #endif

@@ -73,7 +73,8 @@ void write_npz(const std::string& path, const Table& table);
 /// \throws SystemError  also where the part of casimir that writes HDF5 is not there
 void write_hdf5(const std::string& path, const Table& table);
 
-/// Whether this program was built with the libraries for them.
+/// Whether this program was built with the library for them.
+/// \throws SystemError  where it was, and its module for HDF5 does not load
 bool has_hdf5();
 bool has_libzip();
 
