@@ -54,6 +54,42 @@ std::vector<Polynomial> FunctionPieces::radicand_factors(const Polynomial& p, bo
   return result;
 }
 
+std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p) const {
+  std::vector<Polynomial> result;
+  const std::vector<Polynomial> rough = radicand_factors(p);
+  const auto add = [&](const Polynomial& f) {
+    if (!f.is_constant() && std::find(result.begin(), result.end(), f) == result.end())
+      result.push_back(f);
+  };
+  // What is divided by, itself or under a root that is.
+  const auto divided_by = [&](const Polynomial& bottom, bool inverse) {
+    for (const auto& [f, exponent] : bottom.factors()) {
+      std::vector<Polynomial> parts = radicand_factors(f);
+      parts.push_back(f);
+      for (const Polynomial& part : parts)
+        if (inverse || std::find(rough.begin(), rough.end(), part) != rough.end()) add(part);
+    }
+  };
+  divided_by(table_.lowest_terms(p).second, false);
+  for (const std::size_t g : table_.generators_in({p})) {
+    const Generator& generator = table_.generators()[g];
+    const bool function = generator.kind == Kind::function;
+    if (generator.kind != Kind::inverse && !generator.base.is_zero())
+      divided_by(table_.fraction(generator.base).second,
+                 function && generator.order == kArcTangent);
+    for (const Polynomial& argument : generator.arguments)
+      divided_by(table_.fraction(argument).second, function);
+    if (!function || generator.order != kArcTangentOfTwo) continue;
+    const Polynomial& y = generator.arguments[0];
+    const Polynomial& x = generator.arguments[1];
+    if (signs_.known_sign(x) > 0 && signs_.known_nonzero(x)) continue;
+    const Polynomial cut =
+        table_.numerator(y).is_zero() ? table_.numerator(x) : table_.numerator(y);
+    for (const auto& [f, exponent] : cut.factors()) add(f);
+  }
+  return result;
+}
+
 /// max(b, 0)^(1 + k/q) and b*|b| are continuously differentiable functions of b. So is p where it
 /// depends on a root of b by terms with such powers alone, b being a polynomial in the symbols; on
 /// the edge of the root's domain this is so from inside.

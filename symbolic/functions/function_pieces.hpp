@@ -19,6 +19,12 @@ class FunctionPieces {
   /// \param cuts  with what has to vanish for atan2 to jump, which does not concern derivatives
   std::vector<Polynomial> radicand_factors(const Polynomial& p, bool cuts = false) const;
 
+  /// Functions such that `p`, where it has values, is continuous wherever none of them vanishes:
+  /// what it divides by inside of roots, absolute values and inverse functions, or beside them with
+  /// the same factor, as |s|/s does, and what vanishes on the cuts of atan2. Of a quotient of
+  /// analytic functions there are none: what is constant along a motion has no pole there.
+  std::vector<Polynomial> jump_factors(const Polynomial& p) const;
+
   /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that
   /// vanishes, as y*|y| and x^(3/2) are.
   bool is_smooth_across(const Polynomial& p, const Polynomial& f) const;

@@ -154,6 +154,11 @@ class FunctionRing {
     return pieces_.radicand_factors(p, cuts);
   }
 
+  /// Functions of which one vanishes wherever `p`, having values on both sides, jumps.
+  std::vector<Polynomial> jump_factors(const Polynomial& p) const {
+    return pieces_.jump_factors(p);
+  }
+
   /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that
   /// vanishes, as y*|y| and x^(3/2) are.
   bool is_smooth_across(const Polynomial& p, const Polynomial& f) const {

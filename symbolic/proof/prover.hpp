@@ -114,6 +114,19 @@ class Prover {
   /// left undecided for this reason.
   bool is_smooth_on(Proof& proof, const Level& level, const std::vector<NamedExpression>& list,
                     Smooth smooth = Smooth::everywhere);
+  /// What holds along motions on which none of these functions jumps, as "on motions that do not
+  /// cross x = 0"; empty where it is shown that none does. The derivative of sign(x)*y along a
+  /// motion may vanish wherever it has one, and still it is another constant behind x = 0; a
+  /// density that jumps where the motion passes is no density there.
+  ///
+  /// Theorem: a function that is differentiable with rate zero along a motion but for isolated
+  /// times, and continuous there, is constant on it. Continuous it is where no `jump_factors`
+  /// vanishes; one that vanishes nowhere, whose sign the motion keeps (`keeps_sign`), or at whose
+  /// zeros the motion has no value on either side, is passed by none.
+  /// \param every  of the flows of all Hamiltonians, of which each keeps the sign of Casimir functions alone
+  std::vector<std::string> where_without_jumps(const std::vector<Polynomial>& functions,
+                                               bool every = false);
+
   /// Does the motion keep the sign of `u`, and u = 0? Theorem: u(t) = u(0)*exp(int c dt) where
   /// du/dt = c*u along a solution with c continuous. Then |u| is differentiable along it, and has
   /// the rate c*|u|. Hypothesis: the denominator of c vanishes nowhere on the level, or the motion

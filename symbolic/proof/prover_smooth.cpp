@@ -1,6 +1,8 @@
 // Whether functions may be differentiated on a level.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "symbolic/proof/prover.hpp"
 
 namespace casimir {
@@ -10,6 +12,35 @@ bool Prover::keeps_sign(const Polynomial& u, const Level& level) {
   Polynomial cofactor(ring_.ring());
   return (top.is_zero() || top.divide(u, &cofactor)) &&
          vanishes_nowhere_on(bottom, level, Divisors::of_motion);
+}
+
+std::vector<std::string> Prover::where_without_jumps(const std::vector<Polynomial>& functions,
+                                                     bool every) {
+  std::vector<std::string> where;
+  if (ring_.is_polynomial()) return where;
+  // The motion goes through kinks of the Hamiltonian, though its equations have |x|/x there.
+  std::vector<Polynomial> kinks;
+  if (has_motion())
+    for (const Polynomial& own : field())
+      for (Polynomial& f : ring_.radicand_factors(own)) kinks.push_back(std::move(f));
+  const auto ends_the_motion = [&](const Polynomial& f) {
+    return !every && std::find(kinks.begin(), kinks.end(), f) == kinks.end() &&
+           vanishes_nowhere_on(f, {}, Divisors::of_motion);
+  };
+  const auto is_kept = [&](const Polynomial& f) {
+    if (!every) return keeps_sign(f, {});
+    const std::vector<Polynomial> flow = flow_of(gradient(f));
+    return std::all_of(flow.begin(), flow.end(), [&](const Polynomial& p) { return is_zero(p); });
+  };
+  for (const Polynomial& function : functions) {
+    for (const Polynomial& f : ring_.jump_factors(function)) {
+      if (ring_.is_nowhere_zero(f) || ends_the_motion(f) || is_kept(f)) continue;
+      std::string condition = fmt::format("on motions that do not cross {} = 0", ring_.text(f));
+      if (std::find(where.begin(), where.end(), condition) == where.end())
+        where.push_back(std::move(condition));
+    }
+  }
+  return where;
 }
 
 bool Prover::is_smooth_on(Proof& proof, const Level& level,

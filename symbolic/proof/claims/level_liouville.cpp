@@ -101,6 +101,10 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
                   fmt::join(names_of(functions), ", "), leaf, point->text());
   // One point shows nothing of other components of the level, or of other pieces.
   proof.where.push_back("around " + point->text());
+  std::vector<Polynomial> values;
+  for (const NamedExpression& f : functions) values.push_back(prover.convert(f.value));
+  for (std::string& condition : prover.where_without_jumps(values))
+    proof.where.push_back(std::move(condition));
 }
 
 /// Whether f is in involution with every variable, as far as expanding shows it.

@@ -129,6 +129,9 @@ void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density
       every ? modular_field(prover, density) : std::vector{divergence_of_flow(prover, density)},
       {});
   judge_density(prover, proof, density.value);
+  if (proof.verdict != Verdict::proved) return;
+  for (std::string& condition : prover.where_without_jumps({prover.convert(density.value)}, every))
+    proof.where.push_back(std::move(condition));
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ void count_on_level(Prover& prover, const std::vector<Polynomial>& found,
     count.reason = "at this point there are fewer than half the dimension of its leaf";
   else
     count.verdict = Verdict::proved;
+  if (count.verdict == Verdict::proved) count.where = prover.where_without_jumps(found);
 }
 
 }  // namespace
@@ -145,6 +146,7 @@ SpectrumCount count_of_spectrum(Prover& prover, const std::vector<Polynomial>& f
   Proof where;
   say_where(where, leaf->where, leaf->nonzero);
   say_where(where, rank->where != leaf->where ? rank->where : "", rank->nonzero);
+  say_where(where, "", prover.where_without_jumps(found));
   count.where = std::move(where.where);
   return count;
 }
