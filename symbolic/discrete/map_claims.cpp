@@ -182,6 +182,18 @@ Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
         const bool reverses = !prover.is_zero(image - own) && prover.is_zero(image + own);
         prover.decide(proof, {residual(reverses ? -1 : 1)}, {});
         const bool bends = has_another_sign_on_pieces(prover, proof, image, own);
+        constexpr double kFewTerms = 1000;
+        const bool one_to_one = is_one_to_one(map, kFewTerms);
+        if (proof.verdict == Verdict::refuted && !one_to_one) {
+          proof.reason = fmt::format(
+              "the map does not keep ({}) times the volume near each point, but it is not shown to "
+              "be "
+              "one to one: the preimage of a set may have several parts that make up for it",
+              density.name);
+          proof.verdict = Verdict::undecided;
+          proof.residual.clear();
+          proof.witness.reset();
+        }
         judge_density(prover, proof, density.value);
         if (proof.verdict != Verdict::proved) return;
         const auto add = [&](const char* text) {
@@ -192,8 +204,7 @@ Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
                     : "the map reverses the orientation that the density gives");
         // Of a map that is not one to one the preimage of a set may have several parts, and their
         // measure is that of the set only one by one: (x^2, y/(2*x)) doubles areas.
-        constexpr double kFewTerms = 1000;
-        if (!is_one_to_one(map, kFewTerms)) add("locally: that the map is one to one is not shown");
+        if (!one_to_one) proof.where.push_back("on sets on which the map is one to one");
       }};
   Functions all = map.base.constraints;
   all.push_back(density);

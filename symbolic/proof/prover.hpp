@@ -123,7 +123,8 @@ class Prover {
   /// times, and continuous there, is constant on it. Continuous it is where no `jump_factors`
   /// vanishes; one that vanishes nowhere, whose sign the motion keeps (`keeps_sign`), or at whose
   /// zeros the motion has no value on either side, is passed by none.
-  /// \param every  of the flows of all Hamiltonians, of which each keeps the sign of Casimir functions alone
+  /// \param every  of the flows of all Hamiltonians, as where the claim is about the bracket alone: what they keep the
+  ///               signs of are Casimir functions
   std::vector<std::string> where_without_jumps(const std::vector<Polynomial>& functions,
                                                bool every = false);
 

@@ -18,6 +18,7 @@ std::vector<std::string> Prover::where_without_jumps(const std::vector<Polynomia
                                                      bool every) {
   std::vector<std::string> where;
   if (ring_.is_polynomial()) return where;
+  every = every || !has_motion();
   // The motion goes through kinks of the Hamiltonian, though its equations have |x|/x there.
   std::vector<Polynomial> kinks;
   if (has_motion())

@@ -62,11 +62,19 @@ void decide_independence(Prover& prover, Proof& proof,
   }
 }
 
-/// At least so many of the rows are independent.
-std::size_t independent_rows(Prover& prover, const PolynomialRows& rows) {
+/// At least so many of the rows are independent; nothing where no point was found to tell.
+std::optional<std::size_t> independent_rows(Prover& prover, const PolynomialRows& rows) {
   if (rows.empty()) return 0;
   const auto found = generic_rank(prover, rows);
-  return found ? found->rank : 0;
+  return found ? std::optional(found->rank) : std::nullopt;
+}
+
+/// "2 independent Casimir functions", or that they are not counted.
+/// \param all  whether none of the case's was left out
+std::string casimirs_counted(std::optional<std::size_t> independent, bool all) {
+  if (!independent) return "Casimir functions that are not counted, for want of a point,";
+  return fmt::format("{} independent {}Casimir function{}", *independent, all ? "" : "polynomial ",
+                     independent == 1 ? "" : "s");
 }
 
 void decide_rank(Prover& prover, Proof& proof) {
@@ -81,23 +89,22 @@ void decide_rank(Prover& prover, Proof& proof) {
   }
   // One of the case's own claims may be refuted: what is not one is not counted.
   std::vector<NamedExpression> known = real_everywhere(prover.model().casimirs);
+  const bool all = known.size() == prover.model().casimirs.size();
   std::erase_if(known, [&](const NamedExpression& f) { return !is_casimir(prover, f); });
   const PolynomialRows casimirs = gradients(prover, known);
-  const std::size_t independent = independent_rows(prover, casimirs);
+  const std::string independent = casimirs_counted(independent_rows(prover, casimirs), all);
   proof.name = fmt::format("rank {}", found->rank);
   proof.rank = found->rank;
   if (!found->exact) {
-    proof.reason = fmt::format(
-        "the rank is at least {}, with {} independent Casimir functions known in dimension {}",
-        found->rank, independent, prover.dimension());
+    proof.reason = fmt::format("the rank is at least {}, with {} known in dimension {}",
+                               found->rank, independent, prover.dimension());
     return;
   }
   proof.verdict = Verdict::proved;
-  proof.evidence =
-      fmt::format("leaves of dimension {} in dimension {}, {} independent Casimir function{}; {}",
-                  found->rank, prover.dimension(), independent, independent == 1 ? "" : "s",
-                  found->points.empty() ? "the bracket is constant"
-                                        : "rank taken at " + text_of(found->points));
+  proof.evidence = fmt::format("leaves of dimension {} in dimension {}, {}; {}", found->rank,
+                               prover.dimension(), independent,
+                               found->points.empty() ? "the bracket is constant"
+                                                     : "rank taken at " + text_of(found->points));
   say_where(proof, found->where, found->nonzero);
   prover.say_where_values_are(proof);
   prover.check_inhabited(proof, {});

@@ -241,10 +241,29 @@ void decide_liouville(Prover& prover, Proof& proof) {
   require_on_constraints(prover, proof, {{structure_rows(prover), leaf->rank}, {own, needed}});
 }
 
+/// What a case that claims integrability has no count for is not proved by the rest of it.
+Claim uncounted(const char* reason) {
+  return {ClaimKind::liouville,
+          "Liouville integrability",
+          true,
+          [reason](Prover&, Proof& proof) { proof.reason = reason; },
+          {},
+          {},
+          false,
+          Subject::functions};
+}
+
 }  // namespace
 
 std::vector<Claim> liouville_claims(const Model& model) {
-  if (!model.poisson || model.time) return {};
+  if (!model.poisson || model.time) {
+    if (!model.integrable) return {};
+    return {uncounted(
+        model.time ? "integrals are counted on the leaves of a bracket for motions that do not "
+                     "depend on the time, and these do"
+                   : "integrals are counted on the leaves of a Poisson bracket, and this case "
+                     "has none; 'search --hamiltonian' looks for one")};
+  }
   std::vector<Claim> claims{{ClaimKind::liouville,
                              "Liouville integrability",
                              true,
@@ -252,7 +271,7 @@ std::vector<Claim> liouville_claims(const Model& model) {
                              {},
                              values_of(with_hamiltonian(model, real_everywhere(model.casimirs))),
                              false,
-                             Subject::bracket}};
+                             model.hamiltonian ? Subject::motion : Subject::bracket}};
   if (!model.superintegrable) return claims;
   claims.push_back(claims.front());
   claims.back().name = "superintegrability";
