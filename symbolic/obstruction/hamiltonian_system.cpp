@@ -136,6 +136,10 @@ HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scen
   for (const NamedExpression& constraint : model.constraints)
     result.constraints.push_back(constraint.value.subs(values));
   check_constraints(result);
+  result.lost = model.domain;
+  result.lost.insert(result.lost.end(), model.bracket_domain.begin(), model.bracket_domain.end());
+  for (const NamedExpression& constraint : model.constraints)
+    result.lost.insert(result.lost.end(), constraint.domain.begin(), constraint.domain.end());
   for (Assumption assumption : model.assumptions) {
     assumption.difference = assumption.difference.subs(values);
     const auto in_it = [&](const GiNaC::symbol& x) { return assumption.difference.has(x); };

@@ -22,7 +22,8 @@ struct HamiltonianSystem {
   std::vector<std::pair<std::string, GiNaC::ex>> casimirs;
   std::vector<GiNaC::ex> constraints;  ///< Casimir functions too; they vanish on the phase space
   std::vector<Assumption> domain;      ///< what the case assumes of its variables ..
-  std::vector<Assumption> of_free;     ///< .. and of parameters that have no number
+  std::vector<GiNaC::ex> lost;  ///< parts that have cancelled, without whose values there are none
+  std::vector<Assumption> of_free;  ///< .. and of parameters that have no number
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
   GiNaC::exmap numbers;                                         ///< of the parameters
   std::optional<GiNaC::symbol> free;   ///< the parameter that has no number

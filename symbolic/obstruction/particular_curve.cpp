@@ -223,32 +223,59 @@ bool holds_for_large(const Assumption& condition, const ex& on_plane, const symb
   return holds(condition.comparison, sign);
 }
 
+/// Whether the radicand has a factor of even multiplicity that moves and may vanish: on both sides
+/// of where it does, the root is another analytic function, as |1 - x^2| is. (Not so x^2 + y^2,
+/// around whose zeros there is a way.)
+bool parts_the_space(const ex& radicand, const std::vector<symbol>& variables) {
+  const ex quotient = radicand.numer_denom();
+  for (const ex& part : quotient) {
+    if (!uses_any(part, variables)) continue;
+    GiNaC::exset symbols;
+    for (auto it = part.preorder_begin(); it != part.preorder_end(); ++it)
+      if (GiNaC::is_a<symbol>(*it)) symbols.insert(*it);
+    GiNaC::lst all;
+    for (const ex& one : symbols) all.append(one);
+    if (!part.expand().is_polynomial(all)) return true;
+    const ex factors = GiNaC::sqrfree(part.expand(), all);
+    const auto moves_evenly = [&](const ex& factor) {
+      return GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::even) &&
+             uses_any(factor.op(0), variables);
+    };
+    if (moves_evenly(factors)) return true;
+    if (GiNaC::is_a<GiNaC::mul>(factors) &&
+        std::any_of(factors.begin(), factors.end(), moves_evenly))
+      return true;
+  }
+  return false;
+}
+
 /// Where H has roots, it is another analytic function for each choice of their signs, and the
 /// choice of `CurveField::value` is that of large real z. What is excluded for it says something of
 /// the case where its domain has points with such z in every neighbourhood of the surface: what is
-/// under the roots and in the conditions of the domain may depend on z alone.
+/// under the roots and in the conditions of the domain may depend on z alone, nothing else that has
+/// cancelled may limit it, and no root may make H another function on two sides of a surface, of
+/// which integrals may be asked for on one.
 /// \throws NotDecided  where that is not certain
 void check_branches(const HamiltonianSystem& system, const InvariantPlane& plane, const symbol& z) {
-  if (system.domain.empty()) return;
   std::vector<ex> radicands;
   add_radicands(system.hamiltonian, radicands);
   for (const auto& row : system.poisson)
     for (const ex& entry : row) add_radicands(entry, radicands);
-  const auto moves = [&](const ex& e) {
-    return std::any_of(system.variables.begin(), system.variables.end(),
-                       [&](const symbol& x) { return e.has(x); });
-  };
-  const auto beside_z = [&](const ex& e) {
-    return std::any_of(system.variables.begin(), system.variables.end(),
-                       [&](const symbol& x) { return !x.is_equal(z) && e.has(x); });
-  };
-  if (std::none_of(radicands.begin(), radicands.end(), moves)) return;
+  std::erase_if(radicands, [&](const ex& e) { return !uses_any(e, system.variables); });
+  if (radicands.empty()) return;
+  std::vector<symbol> beside;
+  for (const symbol& x : system.variables)
+    if (!x.is_equal(z)) beside.push_back(x);
   const NotDecided open("which branch of a root the domain has is not decided");
+  if (std::any_of(system.lost.begin(), system.lost.end(),
+                  [&](const ex& e) { return uses_any(e, system.variables); }))
+    throw open;
   for (const ex& radicand : radicands)
-    if (beside_z(plane.on(radicand))) throw open;
+    if (uses_any(plane.on(radicand), beside) || parts_the_space(radicand, system.variables))
+      throw open;
   for (const Assumption& condition : system.domain) {
     const ex on_plane = plane.on(condition.difference).normal();
-    if (beside_z(on_plane) || !holds_for_large(condition, on_plane, z)) throw open;
+    if (uses_any(on_plane, beside) || !holds_for_large(condition, on_plane, z)) throw open;
   }
 }
 
