@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/functions/function_ring.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
@@ -223,30 +224,48 @@ bool holds_for_large(const Assumption& condition, const ex& on_plane, const symb
   return holds(condition.comparison, sign);
 }
 
-/// Whether the radicand has a factor of even multiplicity that moves and may vanish: on both sides
-/// of where it does, the root is another analytic function, as |1 - x^2| is. (Not so x^2 + y^2,
-/// around whose zeros there is a way.)
-bool parts_the_space(const ex& radicand, const std::vector<symbol>& variables) {
-  const ex quotient = radicand.numer_denom();
-  for (const ex& part : quotient) {
-    if (!uses_any(part, variables)) continue;
-    GiNaC::exset symbols;
-    for (auto it = part.preorder_begin(); it != part.preorder_end(); ++it)
-      if (GiNaC::is_a<symbol>(*it)) symbols.insert(*it);
-    GiNaC::lst all;
-    for (const ex& one : symbols) all.append(one);
-    if (!part.expand().is_polynomial(all)) return true;
-    const ex factors = GiNaC::sqrfree(part.expand(), all);
-    const auto moves_evenly = [&](const ex& factor) {
+/// Whether the radicand has a factor of even multiplicity that moves and may vanish in the domain:
+/// on both sides of where it does, the root is another analytic function, as |1 - x^2| is. (Not so
+/// x^2 + y^2, around whose zeros there is a way.)
+bool parts_the_space(const ex& radicand, const HamiltonianSystem& system) {
+  std::vector<symbol> all = system.variables;
+  if (system.free) all.push_back(*system.free);
+  all.insert(all.end(), system.further.begin(), system.further.end());
+  const GiNaC::lst symbols(all.begin(), all.end());
+  const auto may_vanish = [&](const ex& factor) {
+    if (!uses_any(factor, system.variables)) return false;
+    const FunctionRing ring(all, system.domain, {factor}, system.limits);
+    return !ring.is_nowhere_zero(ring.convert(factor));
+  };
+  for (const ex& part : radicand.numer_denom()) {
+    const ex expanded = part.expand();
+    if (!uses_any(expanded, system.variables)) continue;
+    if (!expanded.is_polynomial(symbols)) return true;
+    const ex product = GiNaC::sqrfree(expanded, symbols);
+    const auto parts = [&](const ex& factor) {
       return GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::even) &&
-             uses_any(factor.op(0), variables);
+             may_vanish(factor.op(0));
     };
-    if (moves_evenly(factors)) return true;
-    if (GiNaC::is_a<GiNaC::mul>(factors) &&
-        std::any_of(factors.begin(), factors.end(), moves_evenly))
+    if (parts(product) ||
+        (GiNaC::is_a<GiNaC::mul>(product) && std::any_of(product.begin(), product.end(), parts)))
       return true;
   }
   return false;
+}
+
+/// Whether a part that has cancelled has values for all large z on the plane: it is made of entire
+/// functions and roots of what is positive there.
+bool has_values_for_large(const ex& part, const InvariantPlane& plane, const symbol& z) {
+  if (GiNaC::is_a<GiNaC::function>(part)) {
+    const std::string name = GiNaC::ex_to<GiNaC::function>(part).get_name();
+    const std::vector<std::string> entire{"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan"};
+    if (std::find(entire.begin(), entire.end(), name) == entire.end()) return false;
+  }
+  if (GiNaC::is_a<GiNaC::power>(part) && !part.op(1).info(GiNaC::info_flags::integer) &&
+      !holds_for_large({part.op(0), Comparison::greater, {}}, plane.on(part.op(0)).normal(), z))
+    return false;
+  return std::all_of(part.begin(), part.end(),
+                     [&](const ex& own) { return has_values_for_large(own, plane, z); });
 }
 
 /// Where H has roots, it is another analytic function for each choice of their signs, and the
@@ -267,12 +286,11 @@ void check_branches(const HamiltonianSystem& system, const InvariantPlane& plane
   for (const symbol& x : system.variables)
     if (!x.is_equal(z)) beside.push_back(x);
   const NotDecided open("which branch of a root the domain has is not decided");
-  if (std::any_of(system.lost.begin(), system.lost.end(),
-                  [&](const ex& e) { return uses_any(e, system.variables); }))
+  if (!std::all_of(system.lost.begin(), system.lost.end(),
+                   [&](const ex& part) { return has_values_for_large(part, plane, z); }))
     throw open;
   for (const ex& radicand : radicands)
-    if (uses_any(plane.on(radicand), beside) || parts_the_space(radicand, system.variables))
-      throw open;
+    if (uses_any(plane.on(radicand), beside) || parts_the_space(radicand, system)) throw open;
   for (const Assumption& condition : system.domain) {
     const ex on_plane = plane.on(condition.difference).normal();
     if (uses_any(on_plane, beside) || !holds_for_large(condition, on_plane, z)) throw open;

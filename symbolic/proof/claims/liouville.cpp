@@ -262,7 +262,7 @@ std::vector<Claim> liouville_claims(const Model& model) {
         model.time ? "integrals are counted on the leaves of a bracket for motions that do not "
                      "depend on the time, and these do"
                    : "integrals are counted on the leaves of a Poisson bracket, and this case "
-                     "has none; 'search --hamiltonian' looks for one")};
+                     "has none")};
   }
   std::vector<Claim> claims{{ClaimKind::liouville,
                              "Liouville integrability",
