@@ -231,10 +231,11 @@ bool parts_the_space(const ex& radicand, const HamiltonianSystem& system) {
   std::vector<symbol> all = system.variables;
   if (system.free) all.push_back(*system.free);
   all.insert(all.end(), system.further.begin(), system.further.end());
-  const GiNaC::lst symbols(all.begin(), all.end());
+  GiNaC::lst symbols;
+  for (const symbol& one : all) symbols.append(one);
   const auto may_vanish = [&](const ex& factor) {
     if (!uses_any(factor, system.variables)) return false;
-    const FunctionRing ring(all, system.domain, {factor}, system.limits);
+    FunctionRing ring(all, system.domain, {factor}, system.limits);
     return !ring.is_nowhere_zero(ring.convert(factor));
   };
   for (const ex& part : radicand.numer_denom()) {
