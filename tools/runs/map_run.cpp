@@ -38,10 +38,7 @@ Table table_of(const MapModel& map, const Scene& scene, const Iterated& run) {
 
 std::vector<std::string> warnings_of(const MapModel& map, const Iterated& run) {
   std::vector<std::string> warnings = doubts_of_orbit(map, run);
-  if (run.error_estimate && *run.error_estimate >= kSpoiledOrbit)
-    warnings.emplace_back(
-        "rounding has grown to the size of the state: the last state is that of no orbit that "
-        "begins where the scene does");
+  if (std::string doubt = doubt_of_end(run); !doubt.empty()) warnings.push_back(std::move(doubt));
   return warnings;
 }
 

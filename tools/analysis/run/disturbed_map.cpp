@@ -1,6 +1,9 @@
 #include "tools/analysis/run/disturbed_map.hpp"
 
+#include <cln/dfloat.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "runtime/program/number.hpp"
@@ -41,6 +44,43 @@ void DisturbedMap::operator()(const std::vector<double>& state,
   }
   std::ranges::transform(program_.outputs, next.begin(),
                          [&](int i) { return value_[static_cast<std::size_t>(i)]; });
+}
+
+std::optional<Program> with_moved_constants(Program program, std::mt19937_64& random, bool all) {
+  constexpr Arithmetic<double> arithmetic;
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<std::optional<double>> fixed(program.code.size());  // what does not depend on inputs
+  bool moved = false;
+  const auto move = [&](std::size_t k, double value, double towards) {
+    if (!std::isfinite(value) || value == 0 || (!all && random() % 2 == 0)) return;
+    const double other = std::nextafter(value, towards);
+    fixed[k] = other;
+    program.code[k] = {Op::constant, static_cast<int>(program.constants.size())};
+    program.constants.push_back(cln::rational(cln::cl_DF(other)));
+    moved = true;
+  };
+  for (std::size_t k = 0; k < program.code.size(); ++k) {
+    const Instruction line = program.code[k];
+    if (line.op == Op::input) continue;
+    if (is_literal(line)) {
+      fixed[k] = literal_value(program, line, arithmetic);
+      if (line.op == Op::pi) {
+        move(k, *fixed[k], infinity);  // the double is less than Pi
+        continue;
+      }
+      const cln::cl_RA exact = program.constants[static_cast<std::size_t>(line.a)];
+      const cln::cl_RA rounded =
+          std::isfinite(*fixed[k]) ? cln::rational(cln::cl_DF(*fixed[k])) : exact;
+      if (exact != rounded) move(k, *fixed[k], exact > rounded ? infinity : -infinity);
+      continue;
+    }
+    const auto at = [&](int i) { return fixed[static_cast<std::size_t>(i)]; };
+    if (!at(line.a) || (line.b >= 0 && !at(line.b))) continue;
+    fixed[k] = applied(line.op, *at(line.a), *at(line.b < 0 ? line.a : line.b), arithmetic);
+    if (!is_exact(line.op)) move(k, *fixed[k], random() % 2 == 0 ? infinity : -infinity);
+  }
+  if (!moved) return std::nullopt;
+  return program;
 }
 
 }  // namespace casimir

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -26,5 +27,12 @@ class DisturbedMap {
   const Program& program_;
   std::vector<double> value_;
 };
+
+/// The program with other doubles for the numbers in it that are none: what is computed with a
+/// rounded number is another map, and all steps have the same error, so that it grows faster than
+/// what happens at random. A constant becomes the double on its other side; what is computed of
+/// constants alone is moved by one unit of its last digit. Nothing where all numbers are doubles.
+/// \param all  whether all are moved, or each or not at random, so that their effects do not cancel twice
+std::optional<Program> with_moved_constants(Program program, std::mt19937_64& random, bool all);
 
 }  // namespace casimir

@@ -51,4 +51,17 @@ std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& or
   return doubts;
 }
 
+std::string doubt_of_end(const Iterated& orbit) {
+  if (orbit.error_estimate && *orbit.error_estimate >= kSpoiledOrbit)
+    return "rounding has grown to the size of the state: the last state is that of no orbit that "
+           "begins where the scene does";
+  if (!orbit.error_estimate && orbit.finite && !orbit.stopped)
+    return fmt::format(
+        "how far rounding moved the last state is not estimated: that takes the time of three such "
+        "orbits, "
+        "and this one took more than {:g} s",
+        kLongestRepeated);
+  return {};
+}
+
 }  // namespace casimir

@@ -23,4 +23,8 @@ std::vector<std::string> doubts_of_members(const Model& model,
 /// The same of an orbit of a map: much more than rounding does to its states.
 std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& orbit);
 
+/// The sentence about an orbit whose end is lost in rounding, or of which that is not known; empty
+/// for others.
+std::string doubt_of_end(const Iterated& orbit);
+
 }  // namespace casimir

@@ -49,7 +49,8 @@ class Drift {
     const std::vector<long double> now = values(state);
     for (std::size_t i = 0; i < size_; ++i) {
       const long double scale = std::max(std::abs(initial_[i]), sizes_[i]);
-      const long double drift = scale > 0 ? std::abs(now[i] - initial_[i]) / scale : 0;
+      const long double change = std::abs(now[i] - initial_[i]);
+      const long double drift = change == 0 ? 0 : change / scale;
       invariants[i].initial = static_cast<double>(initial_[i]);
       invariants[i].final = static_cast<double>(now[i]);
       // What is not a number is no small drift.
@@ -76,55 +77,81 @@ bool is_finite(const std::vector<double>& x) {
   return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
 }
 
-/// An orbit like that to the state `end`, but with random errors of one unit of the last digit: how
-/// far its end is from that, as of Iterated. Of a long orbit the first and the last steps have them
-/// in all operations, and some of those between, all along; the others in the state alone.
-double distance_of_disturbed(const Module& module, const PreparedScene& run, std::uint64_t steps,
-                             const std::vector<double>& end, std::uint64_t seed) {
-  const auto& step = module.functions().rhs;
-  std::mt19937_64 random(seed);
-  std::vector<double> state = run.initial, next(state.size()), largest(state.size());
-  constexpr std::uint64_t kMostOperations = 2'000'000;
-  DisturbedMap disturbed(run.specialisation.rhs);
-  const std::uint64_t in_all_operations =
-      kMostOperations / std::max<std::size_t>(1, disturbed.operations());
-  const auto disturb = [&] {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < state.size(); ++i, bits >>= 1) {
-      if (i % 64 == 0) bits = random();
-      largest[i] = std::max(largest[i], std::abs(state[i]));
-      state[i] *= bits % 2 == 0 ? 1 + std::numeric_limits<double>::epsilon()
-                                : 1 - std::numeric_limits<double>::epsilon();
-    }
-  };
-  const std::uint64_t stride = steps / std::max<std::uint64_t>(1, in_all_operations) + 1;
-  disturb();
-  for (std::uint64_t k = 0; k < steps; ++k) {
-    if (k < in_all_operations || steps - k <= in_all_operations || k % stride == 0)
-      disturbed(state, run.parameters, random, next);
-    else
-      step(0, state.data(), run.parameters.data(), next.data());
-    std::swap(state, next);
-    disturb();
+/// Orbits like one that is known, but with errors as rounding makes them.
+class DisturbedOrbits {
+ public:
+  DisturbedOrbits(const Module& module, const PreparedScene& run, const Specialisation& code,
+                  const Iterated& orbit)
+      : module_(module), run_(run), code_(code), orbit_(orbit) {
+    constexpr std::uint64_t kMostOperations = 2'000'000;
+    in_all_operations_ = kMostOperations / std::max<std::size_t>(1, code.rhs.code.size());
   }
-  double distance = 0;
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    const double off = std::abs(state[i] - end[i]);
-    if (!std::isfinite(off)) return 1;  // nothing is left of it
-    if (off > 0) distance = std::max(distance, off / std::max(largest[i], std::abs(end[i])));
-  }
-  return distance;
-}
 
-std::optional<double> estimated_error(const Module& module, const PreparedScene& run,
-                                      const Iterated& orbit) {
-  constexpr double kLongest = 1;  // seconds of an orbit that is repeated
-  constexpr int kRepeats = 3;
-  if (!orbit.finite || orbit.stopped || orbit.seconds > kLongest) return std::nullopt;
+  /// How far the end is, as of Iterated. The numbers of the map are others, as of
+  /// `with_moved_constants`: all of those that are no doubles where `seed` is 1, some where it
+  /// is 2. Errors of single steps are random: of a long orbit the first and the last steps have
+  /// them in all operations, and some of those between, all along; the others in the state alone.
+  double distance(std::uint64_t seed) const {
+    std::mt19937_64 random(seed);
+    std::optional<Program> moved;
+    if (seed <= 2) moved = with_moved_constants(code_.rhs, random, seed == 1);
+    std::optional<Module> of_moved;
+    if (moved && orbit_.steps > 2 * in_all_operations_) {
+      Specialisation other = code_;
+      other.rhs = *moved;
+      const CompiledObject object = compile(emit_module(other));
+      of_moved = loaded([&] { return Module::load(object.path); });
+    }
+    DisturbedMap disturbed(moved ? *moved : code_.rhs);
+    return distance_of((of_moved ? *of_moved : module_).functions().rhs, disturbed, random);
+  }
+
+ private:
+  template <class Step>
+  double distance_of(const Step& step, DisturbedMap& disturbed, std::mt19937_64& random) const {
+    const std::uint64_t steps = orbit_.steps;
+    std::vector<double> state = run_.initial, next(state.size()), largest(state.size());
+    const auto disturb = [&] {
+      std::uint64_t bits = 0;
+      for (std::size_t i = 0; i < state.size(); ++i, bits >>= 1) {
+        if (i % 64 == 0) bits = random();
+        largest[i] = std::max(largest[i], std::abs(state[i]));
+        state[i] *= bits % 2 == 0 ? 1 + std::numeric_limits<double>::epsilon()
+                                  : 1 - std::numeric_limits<double>::epsilon();
+      }
+    };
+    const std::uint64_t stride = steps / std::max<std::uint64_t>(1, in_all_operations_) + 1;
+    disturb();
+    for (std::uint64_t k = 0; k < steps; ++k) {
+      if (k < in_all_operations_ || steps - k <= in_all_operations_ || k % stride == 0)
+        disturbed(state, run_.parameters, random, next);
+      else
+        step(0, state.data(), run_.parameters.data(), next.data());
+      std::swap(state, next);
+      disturb();
+    }
+    double distance = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const double end = orbit_.state[i], off = std::abs(state[i] - end);
+      if (!std::isfinite(off)) return 1;  // nothing is left of it
+      if (off > 0) distance = std::max(distance, off / std::max(largest[i], std::abs(end)));
+    }
+    return distance;
+  }
+
+  const Module& module_;
+  const PreparedScene& run_;
+  const Specialisation& code_;
+  const Iterated& orbit_;
+  std::uint64_t in_all_operations_ = 0;  ///< steps at either end
+};
+
+std::optional<double> estimated_error(const DisturbedOrbits& others, const Iterated& orbit) {
+  if (!orbit.finite || orbit.stopped || orbit.seconds > kLongestRepeated) return std::nullopt;
+  constexpr std::uint64_t kRepeats = 3;
   double estimate = 0;
-  for (int k = 1; k <= kRepeats; ++k)
-    estimate = std::max(estimate, distance_of_disturbed(module, run, orbit.steps, orbit.state,
-                                                        static_cast<std::uint64_t>(k)));
+  for (std::uint64_t seed = 1; seed <= kRepeats; ++seed)
+    estimate = std::max(estimate, others.distance(seed));
   return estimate;
 }
 
@@ -147,7 +174,11 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
   result.compile_seconds = elapsed(start);
 
   constexpr std::uint64_t kLooks = 1000, kChunk = 4096;
-  const std::uint64_t look = std::max<std::uint64_t>(1, steps / kLooks);
+  // At random steps: at each hundredth an orbit of period 2 would always be the same.
+  std::mt19937_64 random;
+  std::uniform_int_distribution<std::uint64_t> gap(
+      1, std::max<std::uint64_t>(1, 2 * (steps / kLooks)));
+  std::uint64_t next_look = 1;
   result.state = run.initial;
   Drift drift(run, result.state);
   drift.look(result.state, result.invariants);
@@ -180,7 +211,10 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
       result.sample_steps.push_back(result.steps);
       result.samples.push_back(result.state);
     }
-    if (result.steps % look == 0) drift.look(result.state, result.invariants);
+    if (result.steps == next_look) {
+      drift.look(result.state, result.invariants);
+      next_look += gap(random);
+    }
     if (result.steps % kChunk == 0 && give_up && give_up()) {
       result.stopped = true;
       break;
@@ -192,7 +226,8 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
     result.samples.push_back(result.state);
   }
   drift.look(result.state, result.invariants);
-  if (with_estimate) result.error_estimate = estimated_error(module, run, result);
+  if (with_estimate)
+    result.error_estimate = estimated_error(DisturbedOrbits(module, run, s, result), result);
   return result;
 }
 

@@ -206,6 +206,7 @@ py::object iterated(const MapCase& self, const std::string& scene, std::uint64_t
     Iterated orbit = iterate(map, map.base.scene(scene), steps, every,
                              [&] { return interrupt() || (late && late()); });
     Names doubts = doubts_of_orbit(map, orbit);
+    if (std::string doubt = doubt_of_end(orbit); !doubt.empty()) doubts.push_back(std::move(doubt));
     return std::pair(std::move(orbit), std::move(doubts));
   };
   return exactly(interrupt, run, [](const std::pair<Iterated, Names>& orbit) {
