@@ -46,6 +46,31 @@ void DisturbedMap::operator()(const std::vector<double>& state,
                          [&](int i) { return value_[static_cast<std::size_t>(i)]; });
 }
 
+LongerMap::LongerMap(const Program& program, std::vector<long double> parameters)
+    : program_(program), parameters_(std::move(parameters)) {
+  for (const Instruction& line : program.code)
+    value_.push_back(is_literal(line) ? literal_value(program, line, Arithmetic<long double>{})
+                                      : 0);
+}
+
+void LongerMap::operator()(std::vector<long double>& state) {
+  constexpr Arithmetic<long double> arithmetic;
+  const std::size_t n = state.size();
+  for (std::size_t k = 0; k < value_.size(); ++k) {
+    const Instruction& line = program_.code[k];
+    if (is_literal(line)) continue;
+    if (line.op == Op::input) {
+      const auto i = static_cast<std::size_t>(line.a);
+      value_[k] = i < n ? state[i] : i - n < parameters_.size() ? parameters_[i - n] : 0;
+      continue;
+    }
+    const auto at = [&](int i) { return value_[static_cast<std::size_t>(i)]; };
+    value_[k] = applied(line.op, at(line.a), at(line.b < 0 ? line.a : line.b), arithmetic);
+  }
+  std::ranges::transform(program_.outputs, state.begin(),
+                         [&](int i) { return value_[static_cast<std::size_t>(i)]; });
+}
+
 std::optional<Program> with_moved_constants(Program program, std::mt19937_64& random, bool all) {
   constexpr Arithmetic<double> arithmetic;
   const double infinity = std::numeric_limits<double>::infinity();

@@ -28,6 +28,20 @@ class DisturbedMap {
   std::vector<double> value_;
 };
 
+/// A map in long doubles, where these are longer.
+class LongerMap {
+ public:
+  /// Borrows the program, whose inputs are the state, the parameters and the time.
+  LongerMap(const Program& program, std::vector<long double> parameters);
+
+  /// The next state in the place of this one.
+  void operator()(std::vector<long double>& state);
+
+ private:
+  const Program& program_;
+  std::vector<long double> parameters_, value_;
+};
+
 /// The program with other doubles for the numbers in it that are none: what is computed with a
 /// rounded number is another map, and all steps have the same error, so that it grows faster than
 /// what happens at random. A constant becomes the double on its other side; what is computed of

@@ -10,6 +10,7 @@
 
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
+#include "runtime/evaluate.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/run/disturbed_map.hpp"
@@ -87,6 +88,27 @@ class DisturbedOrbits {
     in_all_operations_ = kMostOperations / std::max<std::size_t>(1, code.rhs.code.size());
   }
 
+  /// How far the end is from that of the orbit with longer numbers, where that does not take long.
+  /// Errors of many steps that are not random, as those of adding 1/3 again and again, are in no
+  /// other.
+  double distance_to_longer() const {
+    constexpr double kMostLines = 1e8;
+    const Program& program = code_.rhs;
+    if (static_cast<double>(orbit_.steps) * static_cast<double>(program.code.size()) > kMostLines)
+      return 0;
+    std::vector<long double> state = evaluate<long double>(code_.start, {});
+    const std::vector<long double> parameters(run_.parameters.begin(), run_.parameters.end());
+    state.resize(orbit_.state.size());
+    std::vector<double> largest(state.size());
+    LongerMap map(program, parameters);
+    for (std::uint64_t k = 0; k < orbit_.steps; ++k) {
+      map(state);
+      for (std::size_t i = 0; i < state.size(); ++i)
+        largest[i] = std::max(largest[i], static_cast<double>(std::abs(state[i])));
+    }
+    return distance_between({state.begin(), state.end()}, largest);
+  }
+
   /// How far the end is, as of Iterated. The numbers of the map are others, as of
   /// `with_moved_constants`: all of those that are no doubles where `seed` is 1, some where it
   /// is 2. Errors of single steps are random: of a long orbit the first and the last steps have
@@ -130,9 +152,14 @@ class DisturbedOrbits {
       std::swap(state, next);
       disturb();
     }
+    return distance_between({state.begin(), state.end()}, largest);
+  }
+
+  double distance_between(const std::vector<long double>& state,
+                          const std::vector<double>& largest) const {
     double distance = 0;
     for (std::size_t i = 0; i < state.size(); ++i) {
-      const double end = orbit_.state[i], off = std::abs(state[i] - end);
+      const double end = orbit_.state[i], off = static_cast<double>(std::abs(state[i] - end));
       if (!std::isfinite(off)) return 1;  // nothing is left of it
       if (off > 0) distance = std::max(distance, off / std::max(largest[i], std::abs(end)));
     }
@@ -149,7 +176,7 @@ class DisturbedOrbits {
 std::optional<double> estimated_error(const DisturbedOrbits& others, const Iterated& orbit) {
   if (!orbit.finite || orbit.stopped || orbit.seconds > kLongestRepeated) return std::nullopt;
   constexpr std::uint64_t kRepeats = 3;
-  double estimate = 0;
+  double estimate = others.distance_to_longer();
   for (std::uint64_t seed = 1; seed <= kRepeats; ++seed)
     estimate = std::max(estimate, others.distance(seed));
   return estimate;
