@@ -80,9 +80,12 @@ struct Proof {
   std::optional<Witness> witness;
   /// What the verdict depends on beyond the assumptions, as "a != 0"; only of what is proved.
   std::vector<std::string> where;
-  std::vector<std::string> nonzero;       ///< what was divided by
-  std::vector<std::string> positive;      ///< or zero: so that its roots and logarithms are real
-  std::vector<std::string> not_zero;      ///< which of `positive` have to be more than zero
+  std::vector<std::string> nonzero;   ///< what was divided by
+  std::vector<std::string> positive;  ///< or zero: so that its roots and logarithms are real
+  std::vector<std::string> not_zero;  ///< which of `positive` have to be more than zero
+  /// Of an integral: equations of where it may jump, which motions may cross; none of its angles,
+  /// which can be followed.
+  std::vector<std::string> jumps;
   std::vector<std::string> integrals;     ///< that a Lax pair gives
   std::optional<SpectrumCount> spectrum;  ///< of a proved Lax pair: what these are enough for
   std::vector<Proof> findings;            ///< of a judgement: what else is known of the candidate

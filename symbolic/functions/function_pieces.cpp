@@ -54,7 +54,7 @@ std::vector<Polynomial> FunctionPieces::radicand_factors(const Polynomial& p, bo
   return result;
 }
 
-std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p) const {
+std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p, bool cuts) const {
   std::vector<Polynomial> result;
   const std::vector<Polynomial> rough = radicand_factors(p);
   const auto add = [&](const Polynomial& f) {
@@ -76,10 +76,10 @@ std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p) const 
     const bool function = generator.kind == Kind::function;
     if (generator.kind != Kind::inverse && !generator.base.is_zero())
       divided_by(table_.fraction(generator.base).second,
-                 function && generator.order == kArcTangent);
+                 cuts && function && generator.order == kArcTangent);
     for (const Polynomial& argument : generator.arguments)
-      divided_by(table_.fraction(argument).second, function);
-    if (!function || generator.order != kArcTangentOfTwo) continue;
+      divided_by(table_.fraction(argument).second, cuts && function);
+    if (!cuts || !function || generator.order != kArcTangentOfTwo) continue;
     const Polynomial& y = generator.arguments[0];
     const Polynomial& x = generator.arguments[1];
     if (signs_.known_sign(x) > 0 && signs_.known_nonzero(x)) continue;

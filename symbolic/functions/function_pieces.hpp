@@ -23,7 +23,8 @@ class FunctionPieces {
   /// what it divides by inside of roots, absolute values and inverse functions, or beside them with
   /// the same factor, as |s|/s does, and what vanishes on the cuts of atan2. Of a quotient of
   /// analytic functions there are none: what is constant along a motion has no pole there.
-  std::vector<Polynomial> jump_factors(const Polynomial& p) const;
+  /// \param cuts  with those of atan2 and of arguments of atan that become infinite
+  std::vector<Polynomial> jump_factors(const Polynomial& p, bool cuts = true) const;
 
   /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that
   /// vanishes, as y*|y| and x^(3/2) are.

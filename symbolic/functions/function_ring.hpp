@@ -155,8 +155,9 @@ class FunctionRing {
   }
 
   /// Functions of which one vanishes wherever `p`, having values on both sides, jumps.
-  std::vector<Polynomial> jump_factors(const Polynomial& p) const {
-    return pieces_.jump_factors(p);
+  /// \param cuts  as of `FunctionPieces`
+  std::vector<Polynomial> jump_factors(const Polynomial& p, bool cuts = true) const {
+    return pieces_.jump_factors(p, cuts);
   }
 
   /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that

@@ -128,6 +128,10 @@ class Prover {
   std::vector<std::string> where_without_jumps(const std::vector<Polynomial>& functions,
                                                bool every = false);
 
+  /// The jumps of the function that such conditions are about: what vanishes there.
+  /// \param cuts  with those of angles
+  std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts, bool every = false);
+
   /// Does the motion keep the sign of `u`, and u = 0? Theorem: u(t) = u(0)*exp(int c dt) where
   /// du/dt = c*u along a solution with c continuous. Then |u| is differentiable along it, and has
   /// the rate c*|u|. Hypothesis: the denominator of c vanishes nowhere on the level, or the motion

@@ -14,10 +14,9 @@ bool Prover::keeps_sign(const Polynomial& u, const Level& level) {
          vanishes_nowhere_on(bottom, level, Divisors::of_motion);
 }
 
-std::vector<std::string> Prover::where_without_jumps(const std::vector<Polynomial>& functions,
-                                                     bool every) {
-  std::vector<std::string> where;
-  if (ring_.is_polynomial()) return where;
+std::vector<Polynomial> Prover::passed_jumps(const Polynomial& function, bool cuts, bool every) {
+  std::vector<Polynomial> passed;
+  if (ring_.is_polynomial()) return passed;
   every = every || !has_motion();
   // The motion goes through kinks of the Hamiltonian, though its equations have |x|/x there.
   std::vector<Polynomial> kinks;
@@ -33,9 +32,17 @@ std::vector<std::string> Prover::where_without_jumps(const std::vector<Polynomia
     const std::vector<Polynomial> flow = flow_of(gradient(f));
     return std::all_of(flow.begin(), flow.end(), [&](const Polynomial& p) { return is_zero(p); });
   };
+  for (Polynomial& f : ring_.jump_factors(function, cuts))
+    if (!ring_.is_nowhere_zero(f) && !ends_the_motion(f) && !is_kept(f))
+      passed.push_back(std::move(f));
+  return passed;
+}
+
+std::vector<std::string> Prover::where_without_jumps(const std::vector<Polynomial>& functions,
+                                                     bool every) {
+  std::vector<std::string> where;
   for (const Polynomial& function : functions) {
-    for (const Polynomial& f : ring_.jump_factors(function)) {
-      if (ring_.is_nowhere_zero(f) || ends_the_motion(f) || is_kept(f)) continue;
+    for (const Polynomial& f : passed_jumps(function, true, every)) {
       std::string condition = fmt::format("on motions that do not cross {} = 0", ring_.text(f));
       if (std::find(where.begin(), where.end(), condition) == where.end())
         where.push_back(std::move(condition));

@@ -80,7 +80,10 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
             decide_motions(prover, proof, on, [&](Proof& own, const auto& level) {
               decide_on_invariant_level(prover, own, {rate_of(prover, f)}, f, level);
             });
-            if (proof.verdict == Verdict::proved && has_angle(f.value))
+            if (proof.verdict != Verdict::proved) return;
+            for (const Polynomial& jump : prover.passed_jumps(prover.convert(f.value), false))
+              proof.jumps.push_back(prover.ring().text(jump) + " = 0");
+            if (has_angle(f.value))
               proof.evidence +=
                   (proof.evidence.empty() ? "" : "; ") +
                   std::string("constant between the jumps that atan2 makes at its cut");

@@ -48,6 +48,7 @@ Json to_json(const Proof& proof) {
   if (!proof.nonzero.empty()) json["nonzero"] = proof.nonzero;
   if (!proof.positive.empty()) json["positive"] = proof.positive;
   if (!proof.not_zero.empty()) json["not_zero"] = proof.not_zero;
+  if (!proof.jumps.empty()) json["jumps"] = proof.jumps;
   if (!proof.residual.empty()) json["residual"] = proof.residual;
   if (!proof.reason.empty()) json["reason"] = proof.reason;
   if (proof.witness) {
@@ -72,6 +73,7 @@ Proof proof_from_json(const Json& json) {
   proof.evidence = json.value("evidence", "");
   proof.where = json.value("where", std::vector<std::string>{});
   proof.nonzero = json.value("nonzero", std::vector<std::string>{});
+  proof.jumps = json.value("jumps", std::vector<std::string>{});
   proof.positive = json.value("positive", std::vector<std::string>{});
   proof.not_zero = json.value("not_zero", std::vector<std::string>{});
   proof.residual = json.value("residual", "");

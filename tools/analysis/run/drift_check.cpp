@@ -1,6 +1,7 @@
 #include "tools/analysis/run/drift_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tools/analysis/proof/prove_in_process.hpp"
 #include "tools/analysis/run/doubted_invariants.hpp"
@@ -46,10 +47,16 @@ DriftDoubts check_drift(const Model& model, const std::vector<std::string>& name
   for (std::size_t i = 0; i < trajectory.invariants.size(); ++i) {
     const InvariantRecord& record = trajectory.invariants[i];
     if (record.drift <= record.allowed) continue;
-    const Verdict verdict = verdict_on(model, names[i]);
-    if (verdict != Verdict::proved) {
+    const Proof proof = proof_of(model, names[i]);
+    if (proof.verdict != Verdict::proved) {
       doubts.which.push_back(i);
-      doubts.sentences.push_back(doubt_of_invariant(names[i], record.drift, verdict));
+      doubts.sentences.push_back(doubt_of_invariant(names[i], record.drift, proof.verdict));
+    } else if (!proof.jumps.empty()) {
+      doubts.which.push_back(i);
+      doubts.sentences.push_back(fmt::format(
+          "{} changes by {:.1e} of its size: it is an integral between the jumps that it may "
+          "have where {}, so that this says nothing of the run",
+          names[i], record.drift, fmt::join(proof.jumps, ", ")));
     } else if (trajectory.status == Status::ok) {
       trajectory.status = Status::drift_exceeded;
       trajectory.reason = fmt::format(

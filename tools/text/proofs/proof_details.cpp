@@ -72,6 +72,8 @@ std::vector<ProofDetail> details_of(const Proof& proof) {
     details.push_back({"witness", witness_text(*proof.witness)});
     details.push_back({"value", proof.witness->value});
   }
+  if (!proof.jumps.empty())
+    details.push_back({"jumps", fmt::format("perhaps, where {}", fmt::join(proof.jumps, " or "))});
   const std::vector<std::string> where = definition_of(proof);
   if (!where.empty())
     details.push_back({"defined", fmt::format("where {}", fmt::join(where, ", "))});
