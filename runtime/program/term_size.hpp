@@ -33,7 +33,11 @@ struct Arithmetic<SizedNumber> {
   static N from(const cln::cl_RA& v) { return plain(Arithmetic<long double>::from(v)); }
   static N pi() { return plain(Arithmetic<long double>::pi()); }
   static N divide(N a, N b) { return {a.value / b.value, a.size / std::abs(b.value)}; }
-  static N sqrt(N a) { return {std::sqrt(edge(a, 0)), std::sqrt(a.size)}; }
+  static N sqrt(N a) {
+    const long double value = std::sqrt(edge(a, 0));
+    const long double steep = value > 0 ? std::min(1 / (2 * value), kSteepest) : kSteepest;
+    return {value, std::max(std::sqrt(a.size), steep * a.size)};
+  }
   static N power(N a, N e) {
     return {std::pow(a.value, e.value), std::pow(std::max(a.size, std::abs(a.value)), e.value)};
   }
@@ -68,13 +72,13 @@ struct Arithmetic<SizedNumber> {
   }
   /// The value, or 1 or -1 where it is a little beyond.
   static long double inside(N a) { return edge({-edge({-a.value, a.size}, -1), a.size}, -1); }
-  /// Beside its edges an inverse function is as steep as a root; no steeper than where the rounding
-  /// of doubles is seen.
+  /// Roots and inverse functions are steep beside the edges of their domains: no steeper than where
+  /// the rounding of doubles is seen.
+  static constexpr long double kSteepest = 1e8L;
   static N arc(long double value, N a) {
-    constexpr long double kSteepest = 1e8L;
     const long double square = 1 - a.value * a.value;
-    const long double slope = square > 0 ? std::min(1 / std::sqrt(square), kSteepest) : kSteepest;
-    return {value, std::max(std::abs(value), slope * a.size)};
+    const long double steep = square > 0 ? std::min(1 / std::sqrt(square), kSteepest) : kSteepest;
+    return {value, std::max(std::abs(value), steep * a.size)};
   }
   static long double slope(Op op, long double a, long double value) {
     switch (op) {

@@ -84,6 +84,10 @@ void Observer::evaluate(double t, const double* x) {
   if (leaves_range_) return evaluate_terms(t, x);
   module_.functions().invariants(t, x, parameters_, values_.data());
   std::copy(values_.begin(), values_.end(), wide_.begin());
+  // On the edge of a domain, which errors of a run pass.
+  if (settings_.invariant_terms &&
+      std::any_of(wide_.begin(), wide_.end(), [](long double v) { return std::isnan(v); }))
+    return evaluate_terms(t, x);
   if (angles_) angles_->put(t, x, wide_.data());
 }
 

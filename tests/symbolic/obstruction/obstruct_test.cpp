@@ -341,5 +341,21 @@ TEST(Obstruct, ARootHasTheBranchOfTheDomain) {
   EXPECT_FALSE(refuted(on("y > 0"))) << "nothing is known of points of the surface y = 0";
 }
 
+/// |1 + u^2|/(1 + u^2) is 1: two oscillators. On the complex curve of an energy u^2 is 2*E - 2*z^4,
+/// less than -1 for large z, where another branch would be taken.
+TEST(Obstruct, ARootOfAVelocityHasNoBranchOfLargePlaces) {
+  for (const char* one : {"(px^2+py^2)/2 + x^4 + y^2 + 2*x^2*y^2*(abs(1+px^2)/(1+px^2) - 1)",
+                          "(px^2+py^2)/2 + x^4 + 2*y^2*(abs(1+px^2) - px^2)",
+                          "(px^2+py^2)/2 + x^4 + 2*y^2*(sqrt((1+px^2)^2) - px^2)"})
+    EXPECT_FALSE(refuted(planar(one))) << one;
+}
+
+/// On |x| < 1, where its motions of energy 1 are, it is separable.
+TEST(Obstruct, ARootThatIsAnotherFunctionBesideASurfaceHasNoBranch) {
+  EXPECT_FALSE(refuted(planar("(px^2+py^2)/2 + x^4 + 2*y^2*abs(1-x^2) + 2*x^2*y^2")));
+  EXPECT_FALSE(
+      refuted(planar("(px^2+py^2)/2 + x^4 + 2*y^2*sqrt((1-x^2)^2) + 2*x^2*y^2 + 0*asin(x)")));
+}
+
 }  // namespace
 }  // namespace casimir::obstruction

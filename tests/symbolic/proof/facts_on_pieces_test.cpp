@@ -205,5 +205,87 @@ TEST(Pieces, AnIntegralWithAnAngleIsSaidToJump) {
   EXPECT_EQ(evidence("atan2(3, x^2 + y^2)").find("jumps"), std::string::npos);
 }
 
+/// Conditions of a proved claim, in one text.
+std::string where_in_case(const std::string& kind, const std::string& text) {
+  const Proof proof = proof_in_case(kind, text);
+  EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+  std::string where;
+  for (const std::string& condition : proof.where) where += condition + "; ";
+  return where;
+}
+
+std::string planar_with(const std::string& hamiltonian, const std::string& more) {
+  return "hamiltonian = \"" + hamiltonian + "\"\nintegrable = true\n" +
+         (more.starts_with("super") ? more.substr(0, more.find('\n') + 1) : "") +
+         "[phase_space]\nvariables = [\"x\",\"y\",\"u\",\"v\"]\ncanonical = true\n[integrals]\n" +
+         (more.starts_with("super") ? more.substr(more.find('\n') + 1) : more);
+}
+
+/// Three gravitating sheets are chaotic: the motion goes from piece to piece, and K jumps between
+/// them.
+TEST(Pieces, IntegralsThatJumpWhereTheMotionPassesCountOnMotionsThatDoNot) {
+  const std::string sheets = "(u^2+v^2)/2 + abs(x) + abs(x+y)";
+  EXPECT_NE(where_in_case("liouville", planar_with(sheets, "K = \"v^2/2 + y*sign(x+y)\"\n"))
+                .find("do not cross x + y = 0"),
+            std::string::npos);
+  // Continuous, beside a separable motion through kinks.
+  EXPECT_EQ(where_in_case("liouville",
+                          planar_with("(u^2+v^2)/2 + abs(x) + abs(y)", "K = \"v^2/2 + abs(y)\"\n")),
+            "");
+  // It jumps where no motion passes.
+  EXPECT_EQ(where_in_case("liouville", planar_with("x*u + v", "K = \"v*x/abs(x)\"\n")), "");
+  EXPECT_EQ(proof_in_case("integral", planar_with(sheets, "K = \"v^2/2 + y*sign(x+y)\"\n")).jumps,
+            std::vector<std::string>{"x + y = 0"});
+}
+
+/// With frequencies 1 and sqrt(2) motions are dense on tori of dimension 2: what makes them closed
+/// is an angle that jumps again and again.
+TEST(Pieces, AnglesMakeNoMotionClosedThatPassesTheirCuts) {
+  const Model model = model_of(planar_with(
+      "(u^2+x^2)/2 + sqrt(2)*(v^2+y^2)/2",
+      "superintegrable = true\nA = \"u^2+x^2\"\nB = \"sqrt(2)*atan2(u,x) - atan2(v,y)\"\n"));
+  bool seen = false;
+  for (const Proof& proof : prove(model)) {
+    if (proof.name != "superintegrability") continue;
+    seen = true;
+    EXPECT_NE(proof.verdict, Verdict::refuted);
+    EXPECT_FALSE(proof.where.empty());
+  }
+  EXPECT_TRUE(seen);
+}
+
+/// x' = 1 carries what has the density 1 to where it has the density 3.
+TEST(Pieces, ADensityThatJumpsWhereTheFlowPassesIsOneBesideIt) {
+  const auto where = [](const std::string& x, const std::string& density) {
+    return where_in_case("measure",
+                         "[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"" + x +
+                             "\"\ny = \"0\"\n[[measure]]\ndensity = \"" + density + "\"\n");
+  };
+  EXPECT_NE(where("1", "2+sign(x)").find("do not cross x = 0"), std::string::npos);
+  EXPECT_EQ(where("1", "2+sign(y)"), "");
+  EXPECT_EQ(where("1", "2+abs(y)"), "");
+  EXPECT_EQ(where("x", "(2+sign(x))/x"), "");
+}
+
+TEST(Facts, IntegrabilityThatIsClaimedIsNotProvedByOtherClaims) {
+  const std::string lorenz =
+      "integrable = true\n[phase_space]\nvariables = [\"x\",\"y\",\"z\"]\n[equations]\n"
+      "x = \"10*(y-x)\"\ny = \"28*x-y-x*z\"\nz = \"x*y-8/3*z\"\n";
+  EXPECT_EQ(overall(model_of(lorenz), prove(model_of(lorenz))), Verdict::undecided);
+  const std::string forced =
+      "integrable = true\nhamiltonian = \"p^2/2 + q*cos(t)\"\n[phase_space]\n"
+      "variables = [\"q\",\"p\"]\ncanonical = true\ntime = \"t\"\n";
+  EXPECT_EQ(overall(model_of(forced), prove(model_of(forced))), Verdict::undecided);
+}
+
+TEST(Facts, CasimirFunctionsThatAreNoPolynomialsAreNotSaidToBeNone) {
+  const Proof rank = proof_in_case(
+      "rank",
+      "hamiltonian = \"x\"\n[phase_space]\nvariables = [\"x\",\"y\",\"z\"]\nalgebra = \"so(3)\"\n"
+      "[casimirs]\nC = \"exp(x^2+y^2+z^2)\"\n");
+  EXPECT_NE(rank.evidence.find("0 independent polynomial Casimir functions"), std::string::npos)
+      << rank.evidence;
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -379,6 +379,47 @@ duration = "20"
   EXPECT_EQ(lost.at("warnings").size(), 1u);
 }
 
+/// 3/5 and 4/5 are no doubles, so that the circle grows in each step, and 1/3 is rounded in the
+/// same way again and again: both errors grow with the number of steps, not with its root.
+TEST(MapCommands, ErrorsOfRoundedNumbersAreEstimated) {
+  const Folder folder;
+  const std::string scene = "[[scene]]\nname = \"default\"\n";
+  folder.write("turn.toml",
+               "[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"3/5*x - 4/5*y\"\n"
+               "y = \"4/5*x + 3/5*y\"\n[integrals]\nE = \"x^2 + y^2\"\n" +
+                   scene + "initial = { x = \"1\", y = \"0\" }\nduration = \"10000000\"\n");
+  folder.write("add.toml",
+               "[phase_space]\nvariables = [\"x\", \"p\"]\n[map]\nx = \"x + p\"\n"
+               "p = \"p\"\n" +
+                   scene + "initial = { x = \"1\", p = \"1/3\" }\nduration = \"10000000\"\n");
+  const auto estimate = [&](const char* file) {
+    const Json json = run_in(folder, {"integrate", file, "--json"}).json();
+    return std::pair(json, json.at("trust").at("error_estimate").get<double>());
+  };
+  const auto [turn, of_turn] = estimate("./turn.toml");
+  const double drift = std::abs(number(turn.at("invariants").at("E").at("final")) - 1);
+  EXPECT_GT(drift, 1e-10) << "the test is about such a drift";
+  EXPECT_GT(of_turn, drift / 2);
+  EXPECT_LT(of_turn, 100 * drift);
+  const auto [add, of_add] = estimate("./add.toml");
+  const double error = std::abs(number(add.at("state").at("x")) - (1 + 1e7 / 3)) / (1e7 / 3);
+  EXPECT_GT(error, 1e-11) << "the test is about such an error";
+  EXPECT_GT(of_add, error / 2);
+  EXPECT_LT(of_add, 100 * error);
+}
+
+TEST(MapCommands, AnOrbitOfPeriodTwoDoesNotHideAChange) {
+  const Folder folder;
+  folder.write("two.toml",
+               "[phase_space]\nvariables = [\"x\"]\n[map]\nx = \"-x\"\n[integrals]\nX = \"x\"\n"
+               "E = \"sqrt(x^2 - 2)\"\n"
+               "[[scene]]\nname = \"default\"\ninitial = { x = \"1\" }\nduration = \"10000\"\n");
+  const Json json = run_in(folder, {"integrate", "./two.toml", "--json"}).json();
+  EXPECT_EQ(number(json.at("invariants").at("X").at("drift")), 2);
+  // What has no value has not kept it.
+  EXPECT_TRUE(std::isinf(number(json.at("invariants").at("E").at("drift"))));
+}
+
 // Within the steps 1 - cos(y) loses its digits, and (1 - cos(y))/y^2 tends to 1/2.
 TEST(MapCommands, WhatCancelsInAStepIsSeen) {
   const Folder folder;

@@ -241,6 +241,25 @@ TEST(Trust, ARefutedIntegralSaysNothingOfTheState) {
   EXPECT_LT(error(""), 1e-12);
 }
 
+/// log(x^2 + y^2) is 0 on the unit circle, acos(x^2 + y^2) on the edge of its domain, sign(x)
+/// jumps, and what has no value at the start says nothing: the states are right.
+TEST(Trust, IntegralsWithTheValueZeroOrJumpsDoNotRefuseARightRun) {
+  for (const char* integral :
+       {"log(x^2 + y^2)", "sin(x^2 + y^2 - 1)", "atan2(x^2 + y^2 - 1, 1)", "acos(x^2 + y^2)",
+        "sqrt(x^2 + y^2 - 1)", "sign(x)*(x^2 + y^2)", "sqrt(x^2 + y^2 - 2)"}) {
+    const Folder folder;
+    folder.write(
+        "o.toml",
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"y\"\n"
+        "y = \"-x\"\n[integrals]\nF = \"" +
+            std::string(integral) +
+            "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"3/5\", y = \"4/5\" }\n"
+            "duration = \"10\"\n");
+    const Outcome outcome = run_in(folder, {"integrate", "./o.toml"});
+    EXPECT_EQ(outcome.status, 0) << integral << outcome.err;
+  }
+}
+
 /// u is zero at the start and stays a thousand million times smaller than x.
 TEST(Trust, ASmallStateThatBeginsAtZeroIsNamedToo) {
   const Folder folder;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "tools/analysis/proof/prove_in_process.hpp"
 #include "tools/analysis/run/doubted_invariants.hpp"
 
@@ -47,6 +49,12 @@ DriftDoubts check_drift(const Model& model, const std::vector<std::string>& name
   for (std::size_t i = 0; i < trajectory.invariants.size(); ++i) {
     const InvariantRecord& record = trajectory.invariants[i];
     if (record.drift <= record.allowed) continue;
+    if (std::isnan(record.initial)) {
+      doubts.which.push_back(i);
+      doubts.sentences.push_back(
+          fmt::format("{} has no value where the run begins, and says nothing of it", names[i]));
+      continue;
+    }
     const Proof proof = proof_of(model, names[i]);
     if (proof.verdict != Verdict::proved) {
       doubts.which.push_back(i);
