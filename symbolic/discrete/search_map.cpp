@@ -312,6 +312,8 @@ class Search {
       std::string text = p->is_constant() ? "1" : fmt::format("1/({})", ring_.text(*p));
       Proof proof = prove_density(map_, {text, density, {}});
       if (proof.verdict == Verdict::proved) {
+        for (const std::string& condition : proof.where)
+          proof.evidence += (proof.evidence.empty() ? "where " : ", where ") + condition;
         result_.densities.push_back({density, std::move(text), std::move(proof.evidence)});
         proved.push_back(*p);
       } else {

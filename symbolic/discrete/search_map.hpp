@@ -13,7 +13,7 @@ namespace casimir::discrete {
 struct FoundOfMap {
   GiNaC::ex value;
   std::string text;
-  std::string evidence{};  ///< what its proof says beside, as "locally: .."
+  std::string evidence{};  ///< what its proof says beside, and what it depends on
 };
 
 /// What a search among polynomials of a degree found of a rational map x -> x'.

@@ -249,7 +249,10 @@ TEST(ManyValuedIntegrals, AFalseOneDrifts) {
   }
   const std::string file =
       folder.write("r.toml", rotator("atan2(y, x) - w*t + Pi*x/sqrt(x^2)", "20*Pi*5/7"));
-  EXPECT_EQ(answered(folder, {"integrate", file}, 5).at("status"), "drift_exceeded");
+  // An integral between its jumps: that it passes some says nothing of the run, but is said.
+  const Json jumping = answered(folder, {"integrate", file});
+  EXPECT_EQ(jumping.at("status"), "ok");
+  EXPECT_NE(jumping.at("warnings").dump().find("between the jumps"), std::string::npos);
 }
 
 TEST(ManyValuedIntegrals, OfAnEnsembleAreComparedUpToTheirBranches) {

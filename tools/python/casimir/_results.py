@@ -208,7 +208,7 @@ class MapSearch(Sequence[str]):
 
     integrals: list[str]
     densities: list[str]  #: of measures that the map keeps, up to sign
-    density_evidence: list[str]  #: what the proof of each says beside, as "locally: .."
+    density_evidence: list[str]  #: what the proof of each says beside, and what it depends on
     no_polynomial: bool  #: proved: no polynomial of the degree is an integral
     no_rational: bool  #: proved: nor is a quotient of them
     polynomials: int  #: at most so many independent ones
