@@ -426,6 +426,33 @@ TEST(Sweep, OnTwoMpiRanksIsTheSameToTheBit) {
   EXPECT_EQ(error.find("there is no parameter", at + 1), std::string::npos) << error;
 }
 
+/// What was written with a parameter has values where that is computed: a*x/a is x, and at a = 0
+/// nothing.
+TEST(Sweep, ParametersForWhichACaseHasNoValuesAreRefused) {
+  for (const auto& [rate, values, said] :
+       std::vector<std::array<std::string, 3>>{{"sign(a*x) + x", "-1,0,1", "a != 0"},
+                                               {"a*x/a", "-1,0,1", "a != 0"},
+                                               {"sqrt(a)^2*x", "-1,1", "a >= 0"},
+                                               {"x + log(a)*0", "0,1", "a > 0"}}) {
+    const Folder folder;
+    folder.write("w.toml",
+                 "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\na = {}\n"
+                 "[equations]\nx = \"1\"\ny = \"" +
+                     rate +
+                     "\"\n[[scene]]\nname = \"default\"\nparameters = { a = \"1\" }\n"
+                     "initial = { x = \"1\", y = \"0\" }\nduration = 1\n");
+    const Outcome swept = run_in(folder, {"sweep", "./w.toml", "--over", "a=" + values, "--json"});
+    EXPECT_EQ(swept.status, 2) << rate;
+    EXPECT_TRUE(has(swept.err, said)) << rate << swept.err;
+    folder.write("m.csv", "a\n" + values.substr(0, values.find(',')) + "\n");
+    folder.write("good.csv", "a\n1\n2\n");
+    EXPECT_EQ(run_in(folder, {"integrate", "./w.toml", "--ensemble", "good.csv"}).status, 0)
+        << rate;
+    if (rate.starts_with("a") || rate.starts_with("sign")) continue;  // -1 is no bad one
+    EXPECT_EQ(run_in(folder, {"integrate", "./w.toml", "--ensemble", "m.csv"}).status, 2) << rate;
+  }
+}
+
 /// A program without what is loaded when it is asked for, as somebody would copy it.
 TEST(Sweep, WithoutItsModulesRefusesBeforeAnyWork) {
   if (std::string(CASIMIR_H5DUMP).empty() || std::string(CASIMIR_MPIEXEC).empty())

@@ -9,6 +9,7 @@
 #include "runtime/step/step_watch.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
+#include "tools/analysis/run/parameter_domain.hpp"
 #include "tools/analysis/run/point_check.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
@@ -110,7 +111,9 @@ bool may_pass_over(const PreparedScene& run, const Settings& settings) {
 
 std::string require_members(const Model& model, const Scene& scene, const Specialisation& s,
                             const Ensemble& ensemble) {
-  if (model.constraints.empty() && model.assumptions.empty()) return {};
+  if (model.constraints.empty() && model.assumptions.empty() &&
+      implied_by_parameters(model).empty())
+    return {};
   PointCheck check(model, scene, s);
   std::size_t beside = 0;
   std::string first;

@@ -8,6 +8,7 @@
 #include "codegen/program_of.hpp"
 #include "runtime/evaluate.hpp"
 #include "symbolic/model/given_functions.hpp"
+#include "tools/analysis/run/parameter_domain.hpp"
 
 namespace casimir {
 namespace {
@@ -40,6 +41,8 @@ PointCheck::PointCheck(const Model& model, const Scene& scene, const Specialisat
     constraints_.push_back(c.name);
   }
   assumptions_ = own.assumptions;
+  implied_ = assumptions_.size();
+  for (Assumption& one : implied_by_parameters(own)) assumptions_.push_back(std::move(one));
   for (const Assumption& a : assumptions_) functions.push_back(a.difference);
   const std::vector<GiNaC::symbol> symbols = own.symbols();
   for (std::size_t i = 0; i < constraints_.size(); ++i)
@@ -74,8 +77,10 @@ std::optional<PointFault> PointCheck::operator()(const std::vector<double>& stat
     values[slopes_[k]].size = std::max(values[slopes_[k]].size, std::abs(values[own + k].value));
   for (std::size_t i = 0; i < assumptions_.size(); ++i)
     if (!holds(assumptions_[i], values[constraints_.size() + i]))
-      return PointFault{false,
-                        fmt::format("the assumption {} does not hold", assumptions_[i].text)};
+      return PointFault{
+          false, i < implied_
+                     ? fmt::format("the assumption {} does not hold", assumptions_[i].text)
+                     : fmt::format("without {} the case has no values", assumptions_[i].text)};
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     if (!vanishes(values[i]))
       return PointFault{true, fmt::format("the constraint {} is {:.3g} instead of 0",

@@ -31,7 +31,8 @@ class PointCheck {
 
  private:
   std::vector<std::string> constraints_;  ///< their names
-  std::vector<Assumption> assumptions_;
+  std::vector<Assumption> assumptions_;   ///< then those of `implied_by_parameters`
+  std::size_t implied_ = 0;               ///< from here on
   /// Their values in this order; then x dc/dx for each constraint c and each x in it.
   Program program_;
   std::vector<std::size_t> slopes_;  ///< of which constraint each of these is
