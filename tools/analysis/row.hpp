@@ -16,6 +16,7 @@ enum class RowEnd {
   crashed,         ///< its process ended without an answer
   does_not_split,  ///< the method splits the Hamiltonian, and this one does not split
   drifted,         ///< an invariant drifted beyond `Row::bound`
+  changes,  ///< no invariant drifted, and one has another rate than zero; `Row::reason` is its name
 };
 
 /// One scene by one method: a row of the tables of measured runs.

@@ -161,13 +161,13 @@ int conserve(const ConserveArguments& options) {
     std::cout << to_text(rows, with_error);
     const auto refused =
         std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.refused; });
-    fmt::print("{} of {} runs keep every invariant to {:g}{}\n",
-               static_cast<std::ptrdiff_t>(rows.size()) - failed - refused, rows.size(),
-               options.bound,
-               refused == 0 ? ""
-                            : fmt::format("; {} are refused: an extreme scene, or a Hamiltonian "
-                                          "that does not split",
-                                          refused));
+    fmt::print(
+        "{} of {} runs keep every invariant to {:g}{}\n",
+        static_cast<std::ptrdiff_t>(rows.size()) - failed - refused, rows.size(), options.bound,
+        refused == 0 ? ""
+                     : fmt::format("; {} are refused: an extreme scene, or one that the method "
+                                   "is not made for",
+                                   refused));
   }
   // The rows first: pictures need a program that may be missing.
   if (!options.plot.empty())

@@ -7,6 +7,7 @@
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/estimate/reference_state.hpp"
+#include "tools/analysis/run/changing_invariant.hpp"
 
 namespace casimir {
 namespace {
@@ -69,6 +70,20 @@ void judge_conservation(Row& row, const Trajectory& trajectory, const Scene& sce
   }
 }
 
+/// The first and the last state, with the variables that are not integrated at their first values.
+std::vector<std::vector<double>> ends_of(const Model& model, const Scene& scene,
+                                         const PreparedScene& run, const Trajectory& trajectory) {
+  std::vector<double> first;
+  for (const GiNaC::ex& value : scene.initial)
+    first.push_back(GiNaC::ex_to<GiNaC::numeric>(value.evalf()).to_double());
+  std::vector<double> last = first;
+  const std::vector<int>& places = run.specialisation.state_indices;
+  if (places.size() != model.variables.size()) return {first};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    last[static_cast<std::size_t>(places[i])] = trajectory.state[i];
+  return {first, last};
+}
+
 }  // namespace
 
 const std::vector<std::string>& conserving_methods() {
@@ -102,6 +117,13 @@ Conservation conserve(const Model& model, const Scene& scene, const Method& meth
   const Trajectory& trajectory =
       result.trajectory.emplace(trajectory_of(model, run, method, settings));
   judge_conservation(row, trajectory, scene, options.bound);
+  if (row.ok())
+    if (auto name = changing_invariant(model, scene, ends_of(model, scene, run, trajectory),
+                                       {0, trajectory.time})) {
+      row.end = RowEnd::changes;
+      row.failed = true;
+      row.reason = std::move(*name);
+    }
   if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
     // A run with many digits for a state that nobody asked for may take minutes and gigabytes.
     const ReferenceStateOrReason truth =

@@ -40,6 +40,8 @@ std::string status_text(const Row& row) {
       return "does not split";
     case RowEnd::drifted:
       return fmt::format("drift above {:g}", row.bound);
+    case RowEnd::changes:
+      return fmt::format("{} is not kept: its rate is not zero", row.reason);
   }
   return to_string(row.status);
 }
