@@ -108,7 +108,13 @@ Specialisation of_map(MapCaseFile file, const GenerateArguments& options) {
     throw UsageError(
         "no inverse of this map was found, which does not say that there is none: a [[symmetry]] "
         "with reverses = true gives one, or leave 'inverse' out of --with");
-  return specialise_map(map, scene, parts_of(options), inverse);
+  try {
+    return specialise_map(map, scene, parts_of(options), inverse);
+  } catch (const ModelError&) {
+    // Henon's map has no inverse at b = 0, and its step is computed without a division.
+    if (!inverse || wants(options, "inverse")) throw;
+    return specialise_map(map, scene, parts_of(options), std::nullopt);
+  }
 }
 
 int generate(const GenerateArguments& options) {

@@ -99,6 +99,11 @@ std::vector<std::string> run_words(const JudgedScene& entry, const std::string& 
       "--scene", entry.scene->name, "--method",
       method,    "--time-limit",    fmt::format("{}", options.cell_limit),
       "--json"};
+  for (const LimitName& one : limit_names()) {
+    if (options.common.limits.*one.value == Limits{}.*one.value) continue;
+    words.emplace_back("--limit");
+    words.push_back(fmt::format("{}={}", one.name, exact_text(options.common.limits.*one.value)));
+  }
   if (options.tolerance) {
     words.emplace_back("--tolerance");
     words.push_back(exact_text(*options.tolerance));

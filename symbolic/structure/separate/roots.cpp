@@ -205,6 +205,16 @@ std::optional<std::vector<Polynomial>> regular_where(const Leaves& leaves,
     p = leaves.reduced(p);
     if (p.is_zero()) return std::nullopt;
   }
+  // Where the functions themselves are not analytic, minors of their derivatives say nothing.
+  const FunctionRing& functions = leaves.system().functions();
+  const auto add = [&](const Polynomial& f) {
+    if (!f.is_constant() && !functions.is_nowhere_zero(f)) result.push_back(f);
+  };
+  for (const auto* list : {&a, &integrals})
+    for (const Polynomial& p : *list) {
+      for (const Polynomial& f : functions.radicand_factors(p, true)) add(f);
+      add(functions.lowest_terms(p).second);
+    }
   return result;
 }
 

@@ -492,6 +492,8 @@ class Case:
             raise RequestError("t_eval is a list of times")
         if times is not None and duration is None:
             duration = float(times[numpy.abs(times).argmax()])
+        if times is not None and (times * numpy.sign(duration) > abs(duration)).any():
+            raise RequestError(f"t_eval goes to {times[numpy.abs(times).argmax()]:g}, beyond the duration {duration:g}")
         if max_steps < 0:
             raise RequestError("max_steps is not negative; 0 is no limit")
         motion = _core.integrate(case._core, scene, method, duration, tolerance, rtol, atol, step, max_steps, observe,
