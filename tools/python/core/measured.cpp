@@ -35,6 +35,8 @@ std::string end_of(const Row& row) {
       return "does_not_split";
     case RowEnd::drifted:
       return "drifted";
+    case RowEnd::changes:
+      return "not_kept";
   }
   return {};
 }
