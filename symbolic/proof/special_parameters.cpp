@@ -42,8 +42,7 @@ class SpecialParameters {
   SpecialParameters(Prover& prover, const PolynomialRows& rows, std::size_t rank)
       : prover_(prover), ring_(prover.ring()), rows_(rows), rank_(rank) {
     if (prover.model().parameters.empty()) return;
-    clear_denominators();
-    const std::vector<bool> used = used_variables(rows_);  // of none, where all are constant
+    const std::vector<bool> used = used_variables(rows);  // of none, where all are constant
     // What depends on a parameter is one of the entries exactly where it is this sum.
     Polynomial sum(ring());
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -77,18 +76,6 @@ class SpecialParameters {
 
  private:
   const PolynomialRing& ring() const { return ring_.ring(); }
-  /// The rank is that of rows times what vanishes nowhere: of v/(v + a) - v/(v + b) the factor a -
-  /// b is seen in the numerator alone.
-  void clear_denominators() {
-    const auto divides = [&](const Polynomial& p) {
-      for (std::size_t g = ring_.symbols().size(); g < ring_.end_of_generators(); ++g)
-        if (p.uses(g) && ring_.origin(g).kind == FunctionRing::Origin::Kind::inverse) return true;
-      return false;
-    };
-    for (std::vector<Polynomial>& row : rows_)
-      if (std::any_of(row.begin(), row.end(), divides))
-        row = ring_.common_numerators(std::move(row));
-  }
   /// Or a function of parameters alone.
   bool is_parameter(std::size_t place) const {
     return std::find(places_.begin(), places_.end(), place) != places_.end() ||
@@ -136,7 +123,7 @@ class SpecialParameters {
 
   Prover& prover_;
   const FunctionRing& ring_;
-  PolynomialRows rows_;
+  const PolynomialRows& rows_;
   std::size_t rank_;
   Indices places_;                       ///< of the parameters that the matrix depends on
   Indices constants_;                    ///< of the functions of these alone, such as sin(a)
