@@ -39,8 +39,14 @@ std::vector<bool> used_variables(const PolynomialRows& rows) {
 
 class SpecialParameters {
  public:
-  SpecialParameters(Prover& prover, const PolynomialRows& rows, std::size_t rank)
-      : prover_(prover), ring_(prover.ring()), rows_(rows), rank_(rank) {
+  /// \param no_zeros  what vanishes nowhere where the case has values
+  SpecialParameters(Prover& prover, const PolynomialRows& rows, std::size_t rank,
+                    std::vector<Polynomial> no_zeros = {})
+      : prover_(prover),
+        ring_(prover.ring()),
+        rows_(rows),
+        rank_(rank),
+        no_zeros_(std::move(no_zeros)) {
     if (prover.model().parameters.empty()) return;
     const std::vector<bool> used = used_variables(rows);  // of none, where all are constant
     // What depends on a parameter is one of the entries exactly where it is this sum.
@@ -125,6 +131,7 @@ class SpecialParameters {
   const FunctionRing& ring_;
   const PolynomialRows& rows_;
   std::size_t rank_;
+  std::vector<Polynomial> no_zeros_;
   Indices places_;                       ///< of the parameters that the matrix depends on
   Indices constants_;                    ///< of the functions of these alone, such as sin(a)
   bool with_functions_ = false;          ///< of parameters that are not rational, such as sin(a*q)
@@ -291,6 +298,8 @@ bool SpecialParameters::is_excluded_at_zero(const Polynomial& parameter) const {
 }
 
 void SpecialParameters::look_at_factor(const Polynomial& factor, Zeros zeros) {
+  for (const Polynomial& known : no_zeros_)
+    if (f == known || f == -known) return;
   const Polynomial f = factor.scaled(1 / factor.content());
   if (std::find(factors_.begin(), factors_.end(), f) != factors_.end()) return;
   if (ring_.is_nowhere_zero(f) || (zeros == Zeros::candidates && is_excluded_at_zero(f))) return;
@@ -447,7 +456,29 @@ void SpecialParameters::look_at_set(const ParameterEquations& set) {
 
 std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows& rows,
                                            std::size_t rank) {
-  return SpecialParameters(prover, rows, rank).run();
+  std::vector<std::string> conditions = SpecialParameters(prover, rows, rank).run();
+  // The rank is that of rows times what vanishes nowhere: of v/(v + a) - v/(v + b) the factor a - b
+  // is seen in the numerator alone.
+  const FunctionRing& ring = prover.ring();
+  PolynomialRows numerators = rows;
+  std::vector<Polynomial> denominators;
+  for (std::vector<Polynomial>& row : numerators) {
+    bool divides = false;
+    for (const Polynomial& p : row) {
+      const Polynomial bottom = ring.lowest_terms(p).second;
+      if (bottom.is_constant()) continue;
+      divides = true;
+      for (const auto& [f, exponent] : bottom.factors())
+        if (!f.is_constant()) denominators.push_back(f);
+    }
+    if (divides) row = ring.common_numerators(std::move(row));
+  }
+  if (denominators.empty()) return conditions;
+  for (std::string& more :
+       SpecialParameters(prover, numerators, rank, std::move(denominators)).run())
+    if (std::find(conditions.begin(), conditions.end(), more) == conditions.end())
+      conditions.push_back(std::move(more));
+  return conditions;
 }
 
 }  // namespace casimir
