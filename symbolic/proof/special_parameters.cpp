@@ -298,9 +298,9 @@ bool SpecialParameters::is_excluded_at_zero(const Polynomial& parameter) const {
 }
 
 void SpecialParameters::look_at_factor(const Polynomial& factor, Zeros zeros) {
-  for (const Polynomial& known : no_zeros_)
-    if (f == known || f == -known) return;
   const Polynomial f = factor.scaled(1 / factor.content());
+  for (const Polynomial& known : no_zeros_)
+    if (const Polynomial g = known.scaled(1 / known.content()); f == g || f == -g) return;
   if (std::find(factors_.begin(), factors_.end(), f) != factors_.end()) return;
   if (ring_.is_nowhere_zero(f) || (zeros == Zeros::candidates && is_excluded_at_zero(f))) return;
   const bool solvable =
