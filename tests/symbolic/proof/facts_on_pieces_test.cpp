@@ -144,6 +144,16 @@ TEST(SpecialParameters, InFunctionsAreConditionsToo) {
   }
 }
 
+/// Quotients have them in their numerators; that of what is divided by is none.
+TEST(SpecialParameters, OfQuotientsAreThoseOfTheirNumerators) {
+  for (const char* kind : {"independence", "liouville"}) {
+    EXPECT_EQ(conditions_of(kind, "p2/(p2 + a) - p2/(p2 + b)").count("a - b != 0"), 1U) << kind;
+    EXPECT_EQ(conditions_of(kind, "(p2 + a)/(b*p2 + 1)").count("a*b - 1 != 0"), 1U) << kind;
+    EXPECT_EQ(conditions_of(kind, "atan(a*p2) - atan(b*p2)").count("a - b != 0"), 1U) << kind;
+    EXPECT_EQ(conditions_of(kind, "p2/a").size(), 0U) << kind;
+  }
+}
+
 TEST(SpecialParameters, OfWhichTheAssumptionsAdmitOneRoot) {
   using Set = std::set<std::string>;
   for (const char* sign : {"'a > 0'", "'a < 0'"})

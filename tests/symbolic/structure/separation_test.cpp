@@ -59,6 +59,16 @@ TEST(Separation, OfHenonAndHeilesIsParabolic) {
   expect_separated(model, searched(model, 1), {1, 2, 3, numeric(1, 2), 2, numeric(1, 3)});
 }
 
+/// At x + y = 0 the integral jumps, and near x = 0 the Hamiltonian has a kink.
+TEST(Separation, ListsWhereItsFunctionsAreNotAnalytic) {
+  const Model model = canonical(kPlane, "(px^2 + py^2)/2 + abs(x) + abs(x + y)",
+                                "[integrals]\nK = \"py^2/2 + y*sign(x + y)\"\n");
+  const SeparationReport report = searched(model, 1);
+  for (const Separation& own : report.found)
+    for (const char* place : {"x", "x + y"})
+      EXPECT_EQ(std::ranges::count(own.nonzero, std::string(place)), 1) << place;
+}
+
 /// Three degrees of freedom: elliptic coordinates in space.
 TEST(Separation, OfGarniersSystemIsElliptic) {
   const Model model =

@@ -368,6 +368,24 @@ TEST(Conserve, PassesAndFailsByItsBound) {
 }
 
 /// No integral, and infinite from the start: what it changes by is no number.
+/// One step of the series goes from t = 0 to 1, where sin(Pi*t)^2 is zero again.
+TEST(Conserve, AnIntegralThatReturnsAtTheEndsOfStepsIsNotKept) {
+  const Folder folder;
+  const auto run = [&](const std::string& integral) {
+    folder.write("returns.toml",
+                 "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"1\"\ny = \"0\"\n"
+                 "[integrals]\nA = \"" +
+                     integral +
+                     "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"0\", y = \"1\" }\n"
+                     "duration = 1\n");
+    return run_in(folder, {"conserve", "./returns.toml", "--method", "taylor", "--json"});
+  };
+  const Outcome returning = run("y + sin(Pi*x)^2");
+  EXPECT_EQ(returning.status, 1);
+  EXPECT_NE(returning.out.find("A is not kept"), std::string::npos) << returning.out;
+  EXPECT_EQ(run("y").status, 0);
+}
+
 TEST(Conserve, ADriftThatIsNoNumberFails) {
   const Folder folder;
   std::ofstream(folder.path() / "infinite.toml") << R"toml(title = "infinite"

@@ -191,6 +191,14 @@ int main() {
     ASSERT_TRUE(lines >> value);
     EXPECT_NEAR(value, std::stod(state.at("state").at(name).get<std::string>()), 1e-14);
   }
+  // Henon's map has none at b = 0, where its step is as good as elsewhere.
+  const std::string henon =
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nb = {}\n[map]\n"
+      "x = \"1 - x^2 + y\"\ny = \"b*x\"\n[[scene]]\nname = \"default\"\nparameters = { b = \"0\" "
+      "}\n"
+      "initial = { x = \"2\", y = \"1\" }\n";
+  EXPECT_EQ(run({"generate", "-", "--language", "c"}, henon).status, 0);
+  EXPECT_EQ(run({"generate", "-", "--with", "inverse"}, henon).status, 2);
   // (x, y) -> (x^2, y) has no inverse, and none is said.
   const std::string fold =
       "[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x^2\"\ny = \"y\"\n"

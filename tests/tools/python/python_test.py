@@ -75,6 +75,8 @@ class Cases(unittest.TestCase):
     def test_from_parts(self):
         oscillator = casimir.Case(hamiltonian="(p^2 + w^2*q^2)/2", variables=["q", "p"], canonical=True,
                                   parameters={"w": Fraction(3, 2)}, initial={"q": 1, "p": 0}, duration=10)
+        with self.assertRaises(casimir.RequestError):
+            oscillator.integrate([0, 20], duration=10)
         motion = oscillator.integrate([0, 10])
         self.assertAlmostEqual(motion.y[0, 1], math.cos(15), delta=1e-12)
 
