@@ -64,6 +64,7 @@ TEST(Separation, ListsWhereItsFunctionsAreNotAnalytic) {
   const Model model = canonical(kPlane, "(px^2 + py^2)/2 + abs(x) + abs(x + y)",
                                 "[integrals]\nK = \"py^2/2 + y*sign(x + y)\"\n");
   const SeparationReport report = searched(model, 1);
+  ASSERT_FALSE(report.found.empty());
   for (const Separation& own : report.found)
     for (const char* place : {"x", "x + y"})
       EXPECT_EQ(std::ranges::count(own.nonzero, std::string(place)), 1) << place;
