@@ -453,28 +453,6 @@ TEST(Sweep, ParametersForWhichACaseHasNoValuesAreRefused) {
   }
 }
 
-/// A program without what is loaded when it is asked for, as somebody would copy it.
-TEST(Sweep, WithoutItsModulesRefusesBeforeAnyWork) {
-  if (std::string(CASIMIR_H5DUMP).empty() || std::string(CASIMIR_MPIEXEC).empty())
-    GTEST_SKIP() << "built without HDF5 or MPI";
-  const Folder folder;
-  const std::filesystem::path copy = folder.path() / "casimir";
-  std::filesystem::copy_file(CASIMIR_PROGRAM, copy);
-  std::string command = "cd '" + folder.path().string() + "' && CASIMIR_CASES='" +
-                        CASIMIR_SOURCE_DIR "/cases' ./casimir 2> err.txt";
-  for (const std::string& argument : sweep_arguments("3", "s.h5")) command += " '" + argument + "'";
-  const auto status_of = [](const std::string& line) {
-    return WEXITSTATUS(std::system(line.c_str()));
-  };
-  EXPECT_EQ(status_of(command), 4);
-  const std::string error = file_text(folder.path() / "err.txt");
-  EXPECT_TRUE(has(error, "casimir_hdf5.so")) << error;
-  EXPECT_EQ(status_of("export OMPI_COMM_WORLD_SIZE=2; " + command), 4);
-  const std::string of_ranks = file_text(folder.path() / "err.txt");
-  EXPECT_TRUE(has(of_ranks, "casimir_mpi.so")) << of_ranks;
-  EXPECT_EQ(folder.files(), 2U) << "the program and the errors";
-}
-
 TEST(Sweep, AsHdf5HasArraysOfTheGridsShape) {
   const Folder folder;
   const Outcome outcome = run_in(folder, sweep_arguments("3", "s.h5"));
