@@ -1,5 +1,7 @@
 #include <mpi.h>
 
+#include <cstdlib>
+
 #include "tools/modules/mpi_calls.hpp"
 
 namespace casimir::tools {
@@ -36,7 +38,10 @@ int largest(int number) {
   return result;
 }
 
-void abort_all(int status) { MPI_Abort(MPI_COMM_WORLD, status); }
+void abort_all(int status) {
+  MPI_Abort(MPI_COMM_WORLD, status);
+  std::_Exit(status);
+}
 
 }  // namespace
 }  // namespace casimir::tools

@@ -79,7 +79,6 @@ void MpiRanks::end_all(const std::exception& problem) const {
   if (calls_ == nullptr) return;
   std::cerr << "casimir: error: " << problem.what() << '\n';
   calls_->abort(kEnvironment);
-  std::_Exit(kEnvironment);
 }
 
 }  // namespace casimir::tools
