@@ -325,10 +325,11 @@ TEST(MapCommands, MoserVeselovIsAMethod) {
 /// A declared integral that changes is no fault of the orbit: it is none.
 TEST(MapCommands, AnIntegralThatIsRefutedIsNamed) {
   const Folder folder;
-  write(folder, "turn.toml",
-        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"y\"\n"
-        "y = \"-x\"\n[integrals]\nE = \"x^2 + y^2\"\nK = \"x*y\"\n[[scene]]\nname = \"default\"\n"
-        "initial = { x = \"1\", y = \"1/2\" }\nduration = \"7\"\n");
+  folder.write(
+      "turn.toml",
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"y\"\n"
+      "y = \"-x\"\n[integrals]\nE = \"x^2 + y^2\"\nK = \"x*y\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { x = \"1\", y = \"1/2\" }\nduration = \"7\"\n");
   const std::string warnings =
       run_in(folder, {"integrate", "./turn.toml", "--json"}).json().at("warnings").dump();
   EXPECT_TRUE(has(warnings, "K changes by 2.0e+00 of its size, and it is refuted")) << warnings;
@@ -338,20 +339,20 @@ TEST(MapCommands, AnIntegralThatIsRefutedIsNamed) {
 /// sqrt(x)^2 is x for x that are not negative; the orbit ends at the first other one.
 TEST(MapCommands, WhatTheMapWasWrittenWithHasValues) {
   const Folder folder;
-  write(folder, "down.toml",
-        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x - 1\"\n"
-        "y = \"sqrt(x)^2\"\n[[scene]]\nname = \"default\"\n"
-        "initial = { x = \"3\", y = \"0\" }\nduration = \"7\"\n");
+  folder.write("down.toml",
+               "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x - 1\"\n"
+               "y = \"sqrt(x)^2\"\n[[scene]]\nname = \"default\"\n"
+               "initial = { x = \"3\", y = \"0\" }\nduration = \"7\"\n");
   const Outcome ended = run_in(folder, {"integrate", "./down.toml", "--json"});
   EXPECT_NE(ended.status, 0);
   EXPECT_EQ(ended.json().at("status"), "non_finite");
   EXPECT_EQ(ended.json().at("steps"), 4);
   EXPECT_TRUE(has(ended.err, "sqrt(x), which the map was written with, has no value")) << ended.err;
   // A flow does not come from x > 0 to x < 0 where it has the pole of 1/x; a map does.
-  write(folder, "over.toml",
-        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x - 2\"\n"
-        "y = \"1/x + log(x) - log(x)\"\n[[scene]]\nname = \"default\"\n"
-        "initial = { x = \"3\", y = \"0\" }\nduration = \"7\"\n");
+  folder.write("over.toml",
+               "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x - 2\"\n"
+               "y = \"1/x + log(x) - log(x)\"\n[[scene]]\nname = \"default\"\n"
+               "initial = { x = \"3\", y = \"0\" }\nduration = \"7\"\n");
   EXPECT_EQ(run_in(folder, {"integrate", "./over.toml", "--json"}).json().at("steps"), 2);
 }
 
