@@ -127,6 +127,9 @@ class Prover {
   ///               signs of are Casimir functions
   std::vector<std::string> where_without_jumps(const std::vector<Polynomial>& functions,
                                                bool every = false);
+  /// The same of functions of the case.
+  std::vector<std::string> where_without_jumps(const std::vector<NamedExpression>& functions,
+                                               bool every = false);
 
   /// The jumps of the function that such conditions are about: what vanishes there.
   /// \param cuts  with those of angles

@@ -51,6 +51,13 @@ std::vector<std::string> Prover::where_without_jumps(const std::vector<Polynomia
   return where;
 }
 
+std::vector<std::string> Prover::where_without_jumps(const std::vector<NamedExpression>& functions,
+                                                     bool every) {
+  std::vector<Polynomial> values;
+  for (const NamedExpression& f : functions) values.push_back(convert(f.value));
+  return where_without_jumps(values, every);
+}
+
 bool Prover::is_smooth_on(Proof& proof, const Level& level,
                           const std::vector<NamedExpression>& list, Smooth smooth) {
   if (ring_.is_polynomial()) return true;

@@ -452,17 +452,10 @@ void SpecialParameters::look_at_set(const ParameterEquations& set) {
   add(text + " != 0");
 }
 
-}  // namespace
-
-std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows& rows,
-                                           std::size_t rank) {
-  std::vector<std::string> conditions = SpecialParameters(prover, rows, rank).run();
-  // The rank is that of rows times what vanishes nowhere: of v/(v + a) - v/(v + b) the factor a - b
-  // is seen in the numerator alone.
-  const FunctionRing& ring = prover.ring();
-  PolynomialRows numerators = rows;
+/// Puts numerators into the rows, and returns the factors of what they were divided by.
+std::vector<Polynomial> clear_denominators(const FunctionRing& ring, PolynomialRows& rows) {
   std::vector<Polynomial> denominators;
-  for (std::vector<Polynomial>& row : numerators) {
+  for (std::vector<Polynomial>& row : rows) {
     bool divides = false;
     for (const Polynomial& p : row) {
       const Polynomial bottom = ring.lowest_terms(p).second;
@@ -472,6 +465,22 @@ std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows&
         if (!f.is_constant()) denominators.push_back(f);
     }
     if (divides) row = ring.common_numerators(std::move(row));
+  }
+  return denominators;
+}
+
+}  // namespace
+
+std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows& rows,
+                                           std::size_t rank) {
+  std::vector<std::string> conditions = SpecialParameters(prover, rows, rank).run();
+  // The rank is that of rows times what vanishes nowhere: of v/(v + a) - v/(v + b) the factor a - b
+  // is seen in the numerator alone.
+  PolynomialRows numerators = rows;
+  std::vector<Polynomial> denominators;
+  try {
+    denominators = clear_denominators(prover.ring(), numerators);
+  } catch (const TooLarge&) {  // it is for almost all values then, as without them
   }
   if (denominators.empty()) return conditions;
   for (std::string& more :

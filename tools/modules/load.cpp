@@ -14,6 +14,8 @@ namespace fs = std::filesystem;
 fs::path module_file(const char* module) {
   std::error_code problem;
   const fs::path folder = fs::read_symlink("/proc/self/exe", problem).parent_path();
+  // A path from the folder of whoever calls would load what lies there.
+  if (problem) throw SystemError("where this program is cannot be told: /proc is not there");
   const std::string file = std::string(module) + ".so";
   const fs::path beside = folder / "modules" / file;
   if (fs::exists(beside, problem)) return beside;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/ranks.hpp"
 #include "symbolic/proof/claims/real_functions.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
@@ -101,10 +102,7 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
                   fmt::join(names_of(functions), ", "), leaf, point->text());
   // One point shows nothing of other components of the level, or of other pieces.
   proof.where.push_back("around " + point->text());
-  std::vector<Polynomial> values;
-  for (const NamedExpression& f : functions) values.push_back(prover.convert(f.value));
-  for (std::string& condition : prover.where_without_jumps(values))
-    proof.where.push_back(std::move(condition));
+  say_where(proof, "", prover.where_without_jumps(functions));
 }
 
 /// Whether f is in involution with every variable, as far as expanding shows it.

@@ -140,12 +140,6 @@ SetsOnPieces sets_on_pieces(Prover& prover, const PolynomialRows& flows,
   return result;
 }
 
-std::vector<Polynomial> converted(Prover& prover, const std::vector<NamedExpression>& functions) {
-  std::vector<Polynomial> result;
-  for (const NamedExpression& f : functions) result.push_back(prover.convert(f.value));
-  return result;
-}
-
 /// So many functions in involution, the first among them, whose flows are independent whatever the
 /// arbitrary functions are.
 std::optional<unsigned> always_independent_set(const Prover& prover, const PolynomialRows& flows,
@@ -202,7 +196,7 @@ void decide_liouville(Prover& prover, Proof& proof) {
         "without the arbitrary functions is not zero",
         listed(own), leaf->rank);
     say_where(proof, leaf->where, leaf->nonzero);
-    say_where(proof, "", prover.where_without_jumps(converted(prover, own)));
+    say_where(proof, "", prover.where_without_jumps(own));
     return;
   }
   const auto found = sets_on_pieces(prover, flows, commutes, needed);
@@ -235,7 +229,7 @@ void decide_liouville(Prover& prover, Proof& proof) {
   for (const NamedExpression& f : chosen) own.push_back(prover.flow(f.value));
   say_where(proof, found.where != leaf->where ? found.where : "",
             needed_parameters(prover, own, needed));
-  say_where(proof, "", prover.where_without_jumps(converted(prover, chosen)));
+  say_where(proof, "", prover.where_without_jumps(chosen));
   prover.say_where_values_are(proof);
   prover.check_inhabited(proof, {});
   require_on_constraints(prover, proof, {{structure_rows(prover), leaf->rank}, {own, needed}});

@@ -8,6 +8,7 @@
 
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/claims/density.hpp"
+#include "symbolic/proof/claims/ranks.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
 namespace casimir {
@@ -130,8 +131,7 @@ void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density
       {});
   judge_density(prover, proof, density.value);
   if (proof.verdict != Verdict::proved) return;
-  for (std::string& condition : prover.where_without_jumps({prover.convert(density.value)}, every))
-    proof.where.push_back(std::move(condition));
+  say_where(proof, "", prover.where_without_jumps(std::vector{density}, every));
 }
 
 }  // namespace

@@ -172,9 +172,7 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
   say_where(proof, leaf->where, leaf->nonzero);
   say_where(proof, flows.where != leaf->where ? flows.where : "", flows.nonzero);
   say_where(proof, "", rank->nonzero);
-  std::vector<Polynomial> values;
-  for (const NamedExpression& f : chosen->functions) values.push_back(prover.convert(f.value));
-  say_where(proof, "", prover.where_without_jumps(values));
+  say_where(proof, "", prover.where_without_jumps(chosen->functions));
   prover.say_where_values_are(proof);
   prover.check_inhabited(proof, {});
   require_on_constraints(

@@ -386,6 +386,18 @@ TEST(Conserve, AnIntegralThatReturnsAtTheEndsOfStepsIsNotKept) {
   EXPECT_EQ(run("y").status, 0);
 }
 
+/// At a = 0 the integral has values, and its derivative is 0/0.
+TEST(Conserve, ARateWithoutAValueIsNoFault) {
+  const Folder folder;
+  folder.write("edge.toml",
+               "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\na = {}\n[equations]\n"
+               "x = \"1\"\ny = \"-y\"\n[integrals]\nF = \"y*exp(x)*(1 + sqrt(a*y*exp(x)))\"\n"
+               "[[scene]]\nname = \"default\"\nparameters = { a = \"0\" }\n"
+               "initial = { x = \"1\", y = \"1\" }\nduration = 1\n");
+  const Outcome outcome = run_in(folder, {"conserve", "./edge.toml", "--method", "taylor"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
 TEST(Conserve, ADriftThatIsNoNumberFails) {
   const Folder folder;
   std::ofstream(folder.path() / "infinite.toml") << R"toml(title = "infinite"

@@ -41,15 +41,19 @@ std::optional<std::string> changing_invariant(const Model& given, const Scene& a
   for (const auto* list : {&model.casimirs, &model.integrals})
     for (const NamedExpression& f : *list) {
       names.push_back(f.name);
-      rates.push_back(model.at_parameters(model.rate(f.value), scene));
+      rates.push_back(model.rate(f.value));
     }
-  std::vector<GiNaC::symbol> symbols = model.variables;
+  // Parameters are inputs: where a rate has no value at theirs, it is no number, and no error.
+  std::vector<GiNaC::symbol> symbols = model.symbols();
   if (model.time) symbols.push_back(*model.time);
   const Program program = program_of(rates, symbols);
   const std::vector<std::vector<double>> all = looked_at(model, states);
   for (std::size_t k = 0; k < all.size(); ++k) {
     std::vector<SizedNumber> inputs;
     for (const double x : all[k]) inputs.push_back(Arithmetic<SizedNumber>::plain(x));
+    for (const GiNaC::ex& value : scene.parameters)
+      inputs.push_back(
+          Arithmetic<SizedNumber>::plain(GiNaC::ex_to<GiNaC::numeric>(value.evalf()).to_double()));
     if (model.time)
       inputs.push_back(Arithmetic<SizedNumber>::plain(times[k < times.size() ? k : 0]));
     const std::vector<SizedNumber> values = evaluate(program, inputs);
