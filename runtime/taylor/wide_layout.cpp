@@ -234,7 +234,7 @@ void WideTables::Registers<Number>::append(const std::vector<Number>& lanes) {
 }
 
 WideTables::WideTables(const QuadraticForm& form, int width)
-    : states_(form.states), width_(width), blocks_(1) {
+    : states_(form.states), width_(width), blocks_(CASIMIR_WIDE_LEAST(width)) {
   if (form.states > CASIMIR_WIDE_STATES || form.products.size() > CASIMIR_WIDE_PRODUCTS)
     throw std::invalid_argument("there are no tables for " + std::to_string(form.states) +
                                 " states and " + std::to_string(form.products.size()) +

@@ -14,53 +14,66 @@ namespace casimir_kernel::taylor {
 /// coefficient is known its inner products go into the sums of all orders they belong to, so the
 /// sums stay in registers, and of a new coefficient only the Jacobian is left to do.
 ///
-/// Tables is a class with a casimir_quadratic `tables`, `static constexpr bool known`, and the
-/// counts in the tables as functions `diagonals`, `parts` and `moves`: constants where they are
-/// known, so that the loops are written out.
-template <class Tables, int width, int registers, int the_order>
-struct Quadratic : Tables {
+/// What depends on the number of registers is chosen once, so that the march over the steps is
+/// compiled for each width and order only.
+template <int width, int the_order>
+class Quadratic {
+ public:
   using V = Lanes<width>;
   using Index = Indices<width>;
   static constexpr int blocks = 1, room = 1, order = the_order;
-  using Tables::tables;
   static constexpr bool smooth = true, prepared = false;
+  /// Most registers of products: four states have ten products.
+  static constexpr int most = width == 4 ? 3 : CASIMIR_MOST_PRODUCTS;
 
   V c[order + 1][1];
   V rate[1];
 
-  const int states = tables.states;
+  const int states;
 
-  explicit Quadratic(const Tables& from = {}) : Tables(from) {}
-
-  __attribute__((noinline)) void begin(double, const V* x) {
-    rate[0] = at<V>(tables.constant);
-    for (int d = 0; d < Tables::diagonals(tables); ++d)
-      rate[0] += (jacobian(d, x[0]) + at<V>(tables.fixed[d])) * 0.5 *
-                 permuted(x[0], at<Index>(tables.column[d]));
+  explicit Quadratic(const casimir_quadratic& tables) : states(tables.states), tables_(tables) {
+    choose<1>();
   }
 
-  CASIMIR_INLINE void expand(double unit) {
+  __attribute__((noinline)) void begin(double, const V* x) {
+    rate[0] = at<V>(tables_.constant);
+    for (int d = 0; d < tables_.diagonals; ++d)
+      rate[0] += (jacobian(d, x[0]) + at<V>(tables_.fixed[d])) * 0.5 *
+                 permuted(x[0], at<Index>(tables_.column[d]));
+  }
+
+  void expand(double unit) { (this->*expand_)(unit); }
+
+ private:
+  template <int registers>
+  void choose() {
+    if constexpr (registers < most) {
+      if (tables_.products > registers) return choose<registers + 1>();
+    }
+    expand_ = &Quadratic::expand_with<registers>;
+  }
+
+  template <int registers>
+  void expand_with(double unit) {
     V diagonal[CASIMIR_MOST_DIAGONALS], own[registers], factor[registers][width];
     const V x = c[0][0];
-    V first = at<V>(tables.constant) * unit;
-    repeat(Tables::diagonals(tables), [&](int d) CASIMIR_INLINE_LAMBDA {
+    V first = at<V>(tables_.constant) * unit;
+    for (int d = 0; d < tables_.diagonals; ++d) {
       diagonal[d] = jacobian(d, x) * unit;
-      first += (diagonal[d] + at<V>(tables.fixed[d]) * unit) * 0.5 *
-               permuted(x, at<Index>(tables.column[d]));
-    });
+      first += (diagonal[d] + at<V>(tables_.fixed[d]) * unit) * 0.5 *
+               permuted(x, at<Index>(tables_.column[d]));
+    }
     CASIMIR_UNROLL
     for (int m = 0; m < registers; ++m) {
-      own[m] = at<V>(tables.own[m]) * unit;
-      repeat(Tables::moves(tables, m), [&](int e) CASIMIR_INLINE_LAMBDA {
-        factor[m][e] = at<V>(tables.move[m][e].factor) * unit;
-      });
+      own[m] = at<V>(tables_.own[m]) * unit;
+      for (int e = 0; e < tables_.moves[m]; ++e)
+        factor[m][e] = at<V>(tables_.move[m][e].factor) * unit;
     }
     c[1][0] = first;
     V left[order][registers], right[order][registers], sum[order][registers];
-    next<1>(diagonal, own, factor, left, right, sum);
+    next<registers, 1>(diagonal, own, factor, left, right, sum);
   }
 
- private:
   template <class T>
   static CASIMIR_INLINE T at(const void* from) {
     T v;
@@ -68,28 +81,17 @@ struct Quadratic : Tables {
     return v;
   }
 
-  /// For i = 0 .. count - 1, written out where the count is known.
-  template <class Action>
-  static CASIMIR_INLINE void repeat(int count, Action action) {
-    if constexpr (Tables::known) {
-#pragma GCC unroll 8
-      for (int i = 0; i < count; ++i) action(i);
-    } else {
-      for (int i = 0; i < count; ++i) action(i);
-    }
-  }
-
   CASIMIR_INLINE V jacobian(int d, V x) const {
-    V entries = at<V>(tables.fixed[d]);
-    repeat(Tables::parts(tables, d), [&](int q) CASIMIR_INLINE_LAMBDA {
-      const casimir_move& part = tables.part[d][q];
+    V entries = at<V>(tables_.fixed[d]);
+    for (int q = 0; q < tables_.parts[d]; ++q) {
+      const casimir_move& part = tables_.part[d][q];
       entries += at<V>(part.factor) * permuted(x, at<Index>(part.from));
-    });
+    }
     return entries;
   }
 
   /// Coefficient k+1 and all after it.
-  template <int k>
+  template <int registers, int k>
   CASIMIR_INLINE void next(const V* diagonal, const V* own, const V (*factor)[width],
                            V (*left)[registers], V (*right)[registers], V (*sum)[registers]) {
     const V x = c[k][0];
@@ -100,35 +102,33 @@ struct Quadratic : Tables {
       for (int m = 0; m < registers; ++m) {
         const V total = sum[k][m];
         inner += own[m] * total;
-        repeat(Tables::moves(tables, m), [&](int e) CASIMIR_INLINE_LAMBDA {
-          inner += factor[m][e] * permuted(total, at<Index>(tables.move[m][e].from));
-        });
+        for (int e = 0; e < tables_.moves[m]; ++e)
+          inner += factor[m][e] * permuted(total, at<Index>(tables_.move[m][e].from));
       }
     }
     // Two chains: this is what the next coefficient waits for.
     V other = V{};
-    repeat(Tables::diagonals(tables) / 2, [&](int pair) CASIMIR_INLINE_LAMBDA {
-      const int d = 2 * pair;
-      inner += diagonal[d] * permuted(x, at<Index>(tables.column[d]));
-      other += diagonal[d + 1] * permuted(x, at<Index>(tables.column[d + 1]));
-    });
+    for (int d = 0; d < tables_.diagonals; d += 2) {
+      inner += diagonal[d] * permuted(x, at<Index>(tables_.column[d]));
+      other += diagonal[d + 1] * permuted(x, at<Index>(tables_.column[d + 1]));
+    }
     // A rounded 1/(k+1) would err in the same direction at every step, and a million steps add up.
     constexpr double lost = k < Reciprocals::felt ? reciprocal.rest[k + 1] : 0;
     const V rate = inner + other;
     c[k + 1][0] = lost == 0 ? rate * part : rate * part + rate * lost;
     if constexpr (k + 1 < order) {
-      push<k>(x, left, right, sum);
-      next<k + 1>(diagonal, own, factor, left, right, sum);
+      push<registers, k>(x, left, right, sum);
+      next<registers, k + 1>(diagonal, own, factor, left, right, sum);
     }
   }
 
   /// The products of coefficient k with those of 1 .. k.
-  template <int k>
+  template <int registers, int k>
   CASIMIR_INLINE void push(V x, V (*left)[registers], V (*right)[registers], V (*sum)[registers]) {
     CASIMIR_UNROLL
     for (int m = 0; m < registers; ++m) {
-      const V l = permuted(x, at<Index>(tables.left[m]));
-      const V r = permuted(x, at<Index>(tables.right[m]));
+      const V l = permuted(x, at<Index>(tables_.left[m]));
+      const V r = permuted(x, at<Index>(tables_.right[m]));
       left[k][m] = l;
       right[k][m] = r;
 #pragma GCC unroll 32
@@ -142,6 +142,9 @@ struct Quadratic : Tables {
       }
     }
   }
+
+  const casimir_quadratic& tables_;
+  void (Quadratic::*expand_)(double unit);
 };
 
 }  // namespace casimir_kernel::taylor

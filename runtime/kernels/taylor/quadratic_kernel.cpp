@@ -12,29 +12,21 @@ namespace {
 
 constexpr int kWidth = casimir_kernel::kNativeWidth;
 
-struct RunTimeTables {
-  static constexpr bool known = false;
-  const casimir_quadratic& tables;
-  static int diagonals(const casimir_quadratic& from) { return from.diagonals; }
-  static int parts(const casimir_quadratic& from, int d) { return from.parts[d]; }
-  static int moves(const casimir_quadratic& from, int m) { return from.moves[m]; }
-};
-
-template <int width, int registers, int order>
+template <int width, int order>
 void integrate(const casimir_quadratic& tables, const casimir_run* run, double* x,
                casimir_outcome* out) {
-  using Series = casimir_kernel::taylor::Quadratic<RunTimeTables, width, registers, order>;
-  Series series(RunTimeTables{tables});
+  using Series = casimir_kernel::taylor::Quadratic<width, order>;
+  Series series(tables);
   casimir_kernel::taylor::March<Series>(run, series, x, out).go();
 }
 
-template <int width, int registers>
+template <int width>
 void with_order(const casimir_quadratic& tables, const casimir_run* run, double* x,
                 casimir_outcome* out) {
   const int order = casimir_kernel::taylor::order_for(run);
-  if (order <= 8) return integrate<width, registers, 8>(tables, run, x, out);
-  if (order <= 16) return integrate<width, registers, 16>(tables, run, x, out);
-  integrate<width, registers, 24>(tables, run, x, out);
+  if (order <= 8) return integrate<width, 8>(tables, run, x, out);
+  if (order <= 16) return integrate<width, 16>(tables, run, x, out);
+  integrate<width, 24>(tables, run, x, out);
 }
 
 /// From so many registers of products on, their sums take most of the time.
@@ -58,7 +50,7 @@ void integrate_wide(const casimir_wide& tables, const casimir_run* run, double* 
 extern "C" void CASIMIR_JOIN(casimir_wide_, CASIMIR_TARGET)(const casimir_wide* tables,
                                                             const casimir_run* run, double* x,
                                                             casimir_outcome* out) {
-  integrate_wide<1>(*tables, run, x, out);
+  integrate_wide<CASIMIR_WIDE_LEAST(kWidth)>(*tables, run, x, out);
 }
 
 extern "C" void CASIMIR_JOIN(casimir_quadratic_,
@@ -67,25 +59,7 @@ extern "C" void CASIMIR_JOIN(casimir_quadratic_,
                                              [[maybe_unused]] double* x,
                                              [[maybe_unused]] casimir_outcome* out) {
   if constexpr (kWidth >= 4) {
-    if (tables->states <= 4) {
-      if (tables->products <= 1) return with_order<4, 1>(*tables, run, x, out);
-      if (tables->products == 2) return with_order<4, 2>(*tables, run, x, out);
-      return with_order<4, 3>(*tables, run, x, out);
-    }
+    if (tables->states <= 4) return with_order<4>(*tables, run, x, out);
   }
-  if constexpr (kWidth == 8) {
-    switch (tables->products) {
-      case 0:
-      case 1:
-        return with_order<8, 1>(*tables, run, x, out);
-      case 2:
-        return with_order<8, 2>(*tables, run, x, out);
-      case 3:
-        return with_order<8, 3>(*tables, run, x, out);
-      case 4:
-        return with_order<8, 4>(*tables, run, x, out);
-      default:
-        return with_order<8, 5>(*tables, run, x, out);
-    }
-  }
+  if constexpr (kWidth == 8) with_order<8>(*tables, run, x, out);
 }

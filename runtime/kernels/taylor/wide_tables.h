@@ -12,9 +12,11 @@ enum {
   CASIMIR_WIDE_BLOCKS = 3
 };
 
-/* States fill one of these numbers of registers, 1, 2, .., up to that which all of them need: the
- * march over the steps is compiled for each. With two numbers in a register, which few machines
+/* States fill one of these numbers of registers, the least, .., up to that which all of them need:
+ * the march over the steps is compiled for each. With two numbers in a register, which few machines
  * still have at most, some numbers are left out, as each takes seconds of a build. */
+#define CASIMIR_WIDE_LEAST(width) \
+  ((width) > 2 ? 2 : 1) /* one of four or eight is in quadratic.hpp */
 #define CASIMIR_WIDE_NEXT(blocks, width) \
   ((blocks) + ((width) > 2 || (blocks) < 4 ? 1 : (blocks) == 4 ? 2 : 3))
 
