@@ -1,10 +1,9 @@
 #include "tools/analysis/proof/proof_json.hpp"
 
 namespace casimir {
+namespace {
 
 using Json = nlohmann::ordered_json;
-
-namespace {
 
 Json to_json(const SpectrumCount& count) {
   Json json = {{"involution", to_string(count.involution)},
