@@ -19,7 +19,8 @@ class WideTables {
  public:
   /// \param width  lanes of a register: 2, 4 or 8.
   /// \throws std::invalid_argument  if the form has more than CASIMIR_WIDE_STATES states or
-  ///                                CASIMIR_WIDE_PRODUCTS products.
+  ///                                CASIMIR_WIDE_PRODUCTS products, or its states fit one register
+  ///                                of four or eight, for which there is no kernel.
   WideTables(const QuadraticForm& form, int width);
 
   /// The tables as the kernels read them; they live as long as this object does.

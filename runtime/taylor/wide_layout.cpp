@@ -234,12 +234,12 @@ void WideTables::Registers<Number>::append(const std::vector<Number>& lanes) {
 }
 
 WideTables::WideTables(const QuadraticForm& form, int width)
-    : states_(form.states), width_(width), blocks_(CASIMIR_WIDE_LEAST(width)) {
-  if (form.states > CASIMIR_WIDE_STATES || form.products.size() > CASIMIR_WIDE_PRODUCTS)
+    : states_(form.states), width_(width), blocks_((form.states + width - 1) / width) {
+  if (form.states > CASIMIR_WIDE_STATES || form.products.size() > CASIMIR_WIDE_PRODUCTS ||
+      (width > 2 && blocks_ < 2))
     throw std::invalid_argument("there are no tables for " + std::to_string(form.states) +
                                 " states and " + std::to_string(form.products.size()) +
                                 " products");
-  while (blocks_ * width < states_) blocks_ = CASIMIR_WIDE_NEXT(blocks_, width);
   registers_ = (static_cast<int>(form.products.size()) + width - 1) / width;
   constant_.resize(static_cast<std::size_t>(blocks_) * static_cast<std::size_t>(width));
   std::copy(form.constant.begin(), form.constant.end(), constant_.data());

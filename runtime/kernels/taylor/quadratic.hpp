@@ -114,8 +114,8 @@ class Quadratic {
     }
     // A rounded 1/(k+1) would err in the same direction at every step, and a million steps add up.
     constexpr double lost = k < Reciprocals::felt ? reciprocal.rest[k + 1] : 0;
-    const V rate = inner + other;
-    c[k + 1][0] = lost == 0 ? rate * part : rate * part + rate * lost;
+    const V rates = inner + other;
+    c[k + 1][0] = lost == 0 ? rates * part : rates * part + rates * lost;
     if constexpr (k + 1 < order) {
       push<registers, k>(x, left, right, sum);
       next<registers, k + 1>(diagonal, own, factor, left, right, sum);

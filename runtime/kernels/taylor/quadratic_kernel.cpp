@@ -8,6 +8,10 @@
 #include "runtime/kernels/taylor/quadratic.hpp"
 #include "runtime/kernels/taylor/wide.hpp"
 
+extern "C" void CASIMIR_JOIN(casimir_series_, CASIMIR_TARGET)(const casimir_series* series,
+                                                              const casimir_run* run, double* x,
+                                                              casimir_outcome* out);
+
 namespace {
 
 constexpr int kWidth = casimir_kernel::kNativeWidth;
@@ -29,20 +33,12 @@ void with_order(const casimir_quadratic& tables, const casimir_run* run, double*
   integrate<width, 24>(tables, run, x, out);
 }
 
-/// From so many registers of products on, their sums take most of the time.
-constexpr int kManyRegisters = 10;
-constexpr int kMostBlocks = CASIMIR_WIDE_STATES / kWidth;
-
 template <int blocks>
 void integrate_wide(const casimir_wide& tables, const casimir_run* run, double* x,
                     casimir_outcome* out) {
-  if constexpr (blocks < kMostBlocks) {
-    if (tables.blocks > blocks)
-      return integrate_wide<CASIMIR_WIDE_NEXT(blocks, kWidth)>(tables, run, x, out);
-  }
-  using Series = casimir_kernel::taylor::Wide<kWidth, blocks>;
-  Series series(tables, casimir_kernel::taylor::order_for(run, tables.registers >= kManyRegisters));
-  casimir_kernel::taylor::March<Series>(run, series, x, out).go();
+  casimir_kernel::taylor::Wide<kWidth, blocks> wide(tables);
+  const casimir_series series = wide.functions();
+  CASIMIR_JOIN(casimir_series_, CASIMIR_TARGET)(&series, run, x, out);
 }
 
 }  // namespace
@@ -50,7 +46,14 @@ void integrate_wide(const casimir_wide& tables, const casimir_run* run, double* 
 extern "C" void CASIMIR_JOIN(casimir_wide_, CASIMIR_TARGET)(const casimir_wide* tables,
                                                             const casimir_run* run, double* x,
                                                             casimir_outcome* out) {
-  integrate_wide<CASIMIR_WIDE_LEAST(kWidth)>(*tables, run, x, out);
+  static_assert(CASIMIR_WIDE_BLOCKS == 3);
+  if constexpr (kWidth == 2) {  // else quadratic.hpp
+    if (tables->blocks == 1) return integrate_wide<1>(*tables, run, x, out);
+  }
+  if (tables->blocks == 2) return integrate_wide<2>(*tables, run, x, out);
+  if (tables->blocks == 3) return integrate_wide<3>(*tables, run, x, out);
+  if constexpr (kWidth * CASIMIR_WIDE_BLOCKS < CASIMIR_WIDE_STATES)
+    integrate_wide<0>(*tables, run, x, out);
 }
 
 extern "C" void CASIMIR_JOIN(casimir_quadratic_,

@@ -11,11 +11,13 @@ namespace {
 template <int fixed>
 void integrate(const casimir_series& called, int blocks, const casimir_run* run, double* x,
                casimir_outcome* out) {
-  using Series = casimir_kernel::taylor::CalledSeries<fixed>;
-  const bool large = called.states >= casimir_kernel::taylor::kManyStates;
-  Series series(called, casimir_kernel::taylor::order_for(run, large), blocks);
+  namespace taylor = casimir_kernel::taylor;
+  const bool large = called.registers > 0 ? called.registers >= taylor::kManyRegisters
+                                          : called.states >= taylor::kManyStates;
+  using Series = taylor::CalledSeries<fixed>;
+  Series series(called, taylor::order_for(run, large), blocks);
   called.start(called.object, series.order, run->parameters);
-  casimir_kernel::taylor::March<Series>(run, series, x, out).go();
+  taylor::March<Series>(run, series, x, out).go();
 }
 
 }  // namespace

@@ -76,6 +76,8 @@ constexpr int order_of_one(double tolerance) {
 /// Systems of so many states, if nothing else is known of them, have so many products that their
 /// sums take most of the time.
 constexpr int kManyStates = 20;
+/// So do systems of so many registers of products.
+constexpr int kManyRegisters = 10;
 
 /// The same where the products take the time and not what one coefficient has to wait for in the
 /// one before. The time of a step then grows like the square of the order N, its length like

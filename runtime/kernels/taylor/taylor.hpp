@@ -23,7 +23,7 @@ namespace casimir_kernel {
 ///     V rate[blocks];                   dx/dt, from `begin`
 ///     void begin(double t, const V* x); the rate at a state
 ///     void expand(double unit);         c[1] .. c[order] at the state c[0]
-///     static constexpr bool prepared;   `expand` needs `begin` before it, at the same state
+///     bool prepared;                    `expand` needs `begin` before it, at the same state
 ///   };
 ///
 /// whose numbers may be static constants: then the loops over registers are written out.
@@ -66,7 +66,7 @@ class March {
       }
       CASIMIR_UNROLL
       for (int b = 0; b < series_.blocks; ++b) series_.c[0][b] = state_[b];
-      if (Series::prepared && series_.smooth) series_.begin(t_, state_);
+      if (series_.prepared && series_.smooth) series_.begin(t_, state_);
       series_.expand(unit_);
       ++expansions_;
       double s = chosen_step();

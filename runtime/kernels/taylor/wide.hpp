@@ -1,7 +1,8 @@
 #pragma once
 
 #include "runtime/kernels/reciprocals.hpp"
-#include "runtime/kernels/taylor/taylor.hpp"
+#include "runtime/kernels/taylor/blocks.hpp"
+#include "runtime/kernels/taylor/series.h"
 #include "runtime/kernels/taylor/wide_tables.h"
 
 namespace casimir_kernel::taylor {
@@ -14,29 +15,48 @@ namespace casimir_kernel::taylor {
 /// time as far as the coefficients are known, so that a number that is loaded serves four sums;
 /// what the four coefficients themselves add follows order by order.
 ///
-/// What depends on the number of registers of products is chosen once, so that the march over the
-/// steps is compiled for each number of blocks only.
-template <int width, int the_blocks>
-class Wide {
+/// What depends on the number of registers of products is chosen once. What steps along the series
+/// is that of all systems (called_series.hpp).
+/// \tparam few  registers of states, or 0 where there are more than CASIMIR_WIDE_BLOCKS.
+template <int width, int few>
+class Wide : Blocks<few, CASIMIR_WIDE_STATES / width> {
  public:
-  using V = Lanes<width>;
-  static constexpr int blocks = the_blocks, room = blocks, most = 24;
-  static constexpr bool smooth = true, prepared = false;
-
-  const int states, order;
-  V c[most + 1][blocks];
-  V rate[blocks];
-
-  Wide(const casimir_wide& tables, int the_order)
-      : states(tables.states), order(the_order), tables_(tables) {
+  explicit Wide(const casimir_wide& tables)
+      : Registers(tables.blocks), c{rows_ + tables.blocks, tables.blocks}, tables_(tables) {
     choose_fixed();
   }
 
-  void begin(double, const V* x) { (this->*begin_)(x); }
-  void expand(double unit) { (this->*expand_)(unit); }
+  /// Valid as long as this object is.
+  casimir_series functions() {
+    return {.states = tables_.states,
+            .smooth = true,
+            .direct = true,
+            .registers = tables_.registers,
+            .object = this,
+            .rows = reinterpret_cast<double*>(rows_),
+            .start = &start,
+            .begin = &begin,
+            .expand = &expand};
+  }
 
  private:
+  using Registers = Blocks<few, CASIMIR_WIDE_STATES / width>;
+  using Registers::blocks, Registers::room;
+  static constexpr int most = CASIMIR_SERIES_ORDER;
+  using V = Lanes<width>;
   static constexpr int most_registers = CASIMIR_WIDE_PRODUCTS / width;
+
+  static void start(void* object, int order, const double*) {
+    static_cast<Wide*>(object)->order_ = order;
+  }
+  static void begin(void* object, double, const double* x) {
+    Wide& self = *static_cast<Wide*>(object);
+    (self.*self.begin_)(reinterpret_cast<const V*>(x));
+  }
+  static void expand(void* object, double unit) {
+    Wide& self = *static_cast<Wide*>(object);
+    (self.*self.expand_)(unit);
+  }
 
   /// The coefficients 0, 1, .. of the factors.
   struct Product {
@@ -44,7 +64,7 @@ class Wide {
   };
 
   void choose_fixed() {
-    if constexpr (blocks <= CASIMIR_WIDE_BLOCKS) {
+    if constexpr (few > 0) {
       static_assert(CASIMIR_WIDE_FEW == 4);
       if (tables_.registers == 1) return choose<1>();
       if (tables_.registers == 2) return choose<2>();
@@ -68,15 +88,15 @@ class Wide {
 
   template <int fixed>
   void begin_with(const V* x) {
-    V state[blocks];
+    V state[room];
     for (int b = 0; b < blocks; ++b) state[b] = c[0][b] = x[b];
     rates_at<fixed>(state, 1);
-    for (int b = 0; b < blocks; ++b) rate[b] = state[b];
+    for (int b = 0; b < blocks; ++b) rows_[b] = state[b];
   }
 
   template <int fixed>
   void expand_with(double unit) {
-    V x[blocks];  // the newest coefficient, which the next one waits for
+    V x[room];  // the newest coefficient, which the next one waits for
     CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) x[b] = c[0][b];
     rates_at<fixed>(x, unit);
@@ -85,12 +105,12 @@ class Wide {
     next<fixed, true, 1>(1, unit, x);
     next<fixed, true, 2>(1, unit, x);
     next<fixed, true, 3>(1, unit, x);
-    for (int first = 5; first < order; first += 4) {
+    for (int first = 5; first < order_; first += 4) {
       look_ahead<fixed>(first);
       next<fixed, false, 0>(first, unit, x);
       next<fixed, false, 1>(first, unit, x);
       next<fixed, false, 2>(first, unit, x);
-      if (first + 3 < order) next<fixed, false, 3>(first, unit, x);
+      if (first + 3 < order_) next<fixed, false, 3>(first, unit, x);
     }
   }
 
@@ -101,7 +121,7 @@ class Wide {
 
   /// The states by the indices of a register: of coefficient k, which is x.
   CASIMIR_INLINE V operand(int k, const V* x, const long long* indices) const {
-    return gathered<blocks>(gathers_in_registers<V, blocks> ? x : c[k], indices);
+    return gathered<room>(gathers_in_registers<V, room> ? x : c[k], indices);
   }
 
   /// The state c[0], which is x, becomes its rates times a factor.
@@ -222,7 +242,7 @@ class Wide {
   /// without the constants.
   template <int fixed>
   CASIMIR_INLINE void combine(const V* own, int k, V* x) {
-    V rates[blocks];
+    V rates[room];
     CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) {
       V even = V{}, odd = V{};
@@ -251,10 +271,13 @@ class Wide {
     for (int b = 0; b < blocks; ++b) x[b] = rates[b];
   }
 
+  V rows_[(most + 2) * room];
+  const Rows<V, few> c;
+  int order_ = 0;
   const casimir_wide tables_;
   void (Wide::*begin_)(const V* x);
   void (Wide::*expand_)(double unit);
-  V own_[CASIMIR_WIDE_FEW][blocks];  // the factors of `dense`
+  V own_[CASIMIR_WIDE_FEW][room];  // the factors of `dense`
   V ahead_[most_registers][4];
   V product_now_[most_registers];
   Product product_[most_registers];

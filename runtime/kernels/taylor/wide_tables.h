@@ -12,17 +12,10 @@ enum {
   CASIMIR_WIDE_BLOCKS = 3
 };
 
-/* States fill one of these numbers of registers, the least, .., up to that which all of them need:
- * the march over the steps is compiled for each. With two numbers in a register, which few machines
- * still have at most, some numbers are left out, as each takes seconds of a build. */
-#define CASIMIR_WIDE_LEAST(width) \
-  ((width) > 2 ? 2 : 1) /* one of four or eight is in quadratic.hpp */
-#define CASIMIR_WIDE_NEXT(blocks, width) \
-  ((blocks) + ((width) > 2 || (blocks) < 4 ? 1 : (blocks) == 4 ? 2 : 3))
-
 struct casimir_wide {
   int states, width;
-  int blocks;    /* registers of states */
+  int blocks;    /* registers of states: two or more if each holds four or eight, since what fits
+                    one of them has a kernel of its own (quadratic.hpp) */
   int registers; /* of products */
 
   /* Product i of register m is that of the states left[m * width + i] and right[m * width + i].
