@@ -58,9 +58,9 @@ std::vector<double> doubles(const std::vector<BigFloat>& values) {
 }
 
 /// One run; see `precise_run`.
-class Runner {
+class PreciseRunner {
  public:
-  Runner(const PreciseProblem& problem, int digits)
+  PreciseRunner(const PreciseProblem& problem, int digits)
       : problem_(problem),
         digits_(digits),
         bits_(bits_for(digits)),
@@ -409,7 +409,7 @@ class Runner {
 }  // namespace
 
 PreciseRun precise_run(const PreciseProblem& problem, int digits) {
-  return Runner(problem, digits)();
+  return PreciseRunner(problem, digits)();
 }
 
 double precise_run_bytes(const PreciseProblem& problem, int digits) {

@@ -99,7 +99,7 @@ nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene,
 }
 
 /// A rounded number for a table; what is nothing but rounding is 0.
-std::string rounded(double value, double scale) {
+std::string significant(double value, double scale) {
   return std::abs(value) <= 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
 }
 
@@ -107,7 +107,7 @@ std::string rounded(double value, double scale) {
 std::string state_text(double value, double scale, const ProvedEquilibrium* proof) {
   const bool known =
       proof != nullptr && proof->proved && std::abs(value) > cln::double_approx(proof->radius);
-  return known ? fmt::format("{:.6g}", value) : rounded(value, scale);
+  return known ? fmt::format("{:.6g}", value) : significant(value, scale);
 }
 
 void print_equilibria(const ProvedEquilibrium& proof, const std::string& ranges) {
@@ -156,7 +156,8 @@ void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAn
       state += fmt::format("{}{} = {}", i > 0 ? ", " : "", model.variables[i].get_name(),
                            state_text(e.state[i], report.size, proof));
     for (const auto& value : e.eigenvalues) {  // what may be rounding is 0 already
-      const std::string real = rounded(value.real(), 0), imaginary = rounded(value.imag(), 0);
+      const std::string real = significant(value.real(), 0),
+                        imaginary = significant(value.imag(), 0);
       values += (values.empty() ? "" : ", ") +
                 (imaginary == "0" ? real
                  : real == "0"    ? imaginary + "i"

@@ -39,7 +39,7 @@ std::vector<double> edges_of(const std::vector<double>& x) {
   return edges;
 }
 
-std::string number(double value) {
+std::string cell_value(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN";
 }
 
@@ -51,10 +51,11 @@ std::string cells(const ColourMap& map, bool even) {
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       const double value = map.values[i * map.y.size() + j];
       if (even)
-        text += fmt::format("{:.12g} {:.12g} {}\n", map.x[i], map.y[j], number(value));
+        text += fmt::format("{:.12g} {:.12g} {}\n", map.x[i], map.y[j], cell_value(value));
       else if (std::isfinite(value))
-        text += fmt::format("{:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {}\n", map.x[i],
-                            map.y[j], across[i], across[i + 1], up[j], up[j + 1], number(value));
+        text +=
+            fmt::format("{:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {:.12g} {}\n", map.x[i], map.y[j],
+                        across[i], across[i + 1], up[j], up[j + 1], cell_value(value));
     }
   }
   return text;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kTimeWidth = 9;  // "999.99 ms"
 constexpr std::size_t kLeastName = 24;
 constexpr std::size_t kLeastText = 30;
-const std::string kGap = "  ";
+const std::string kBetweenColumns = "  ";
 
 std::string name_of(const Proof& proof) {
   std::string name = proof.name;
@@ -67,19 +67,21 @@ ProofTable::ProofTable(const std::vector<Proof>& rows, std::size_t width, bool c
     kind_width_ = std::max(kind_width_, display_width(to_string(proof.kind)));
     name_width_ = std::max(name_width_, display_width(name_of(proof)));
   }
-  const std::size_t others = indent_ + kVerdictWidth + kind_width_ + kTimeWidth + 3 * kGap.size();
+  const std::size_t others =
+      indent_ + kVerdictWidth + kind_width_ + kTimeWidth + 3 * kBetweenColumns.size();
   name_width_ = std::min(name_width_, std::max(kLeastName, width_ - std::min(width_, others)));
 }
 
 std::string ProofTable::line(const std::string& verdict, const std::string& kind,
                              const std::string& name, const std::string& time) const {
-  return std::string(indent_, ' ') + verdict + kGap + padded(kind, kind_width_) + kGap +
-         padded(name, name_width_) + kGap + padded(time, kTimeWidth, true);
+  return std::string(indent_, ' ') + verdict + kBetweenColumns + padded(kind, kind_width_) +
+         kBetweenColumns + padded(name, name_width_) + kBetweenColumns +
+         padded(time, kTimeWidth, true);
 }
 
 std::string ProofTable::heading() const {
   const std::string columns = line(padded("verdict", kVerdictWidth), "claim", "name", "time");
-  const std::string evidence = kGap + "evidence";
+  const std::string evidence = kBetweenColumns + "evidence";
   return columns + (columns.size() + evidence.size() <= width_ ? evidence : "") + '\n';
 }
 
@@ -89,9 +91,9 @@ std::string ProofTable::row(const Proof& proof) const {
   std::string text = line(verdict_text(proof.verdict, colour_, kVerdictWidth),
                           to_string(proof.kind), name[0], duration_text(proof.seconds));
   const std::size_t used =
-      indent_ + kVerdictWidth + kind_width_ + name_width_ + kTimeWidth + 4 * kGap.size();
+      indent_ + kVerdictWidth + kind_width_ + name_width_ + kTimeWidth + 4 * kBetweenColumns.size();
   const bool beside = used + display_width(proof.evidence) <= width_;
-  if (beside && !proof.evidence.empty()) text += kGap + proof.evidence;
+  if (beside && !proof.evidence.empty()) text += kBetweenColumns + proof.evidence;
   text = trimmed(text) + '\n';
   for (std::size_t i = 1; i < name.size(); ++i)
     text += trimmed(line(padded("", kVerdictWidth), "", name[i], "")) + '\n';
@@ -100,7 +102,7 @@ std::string ProofTable::row(const Proof& proof) const {
 
 std::string ProofTable::judgement(const Proof& note) const {
   std::string text;
-  const std::string space(indent_ + kVerdictWidth + kGap.size(), ' ');
+  const std::string space(indent_ + kVerdictWidth + kBetweenColumns.size(), ' ');
   const std::size_t columns = std::max(kLeastText, width_ - std::min(width_, space.size() + 2));
   for (const std::string& line : judgement_lines(note)) {
     bool first = true;
@@ -111,18 +113,18 @@ std::string ProofTable::judgement(const Proof& note) const {
   }
   std::string head;
   for (const std::string& part : wrapped(note.name, columns)) {
-    head += std::string(indent_, ' ') + padded(head.empty() ? "judged" : "", kVerdictWidth) + kGap +
-            part + '\n';
+    head += std::string(indent_, ' ') + padded(head.empty() ? "judged" : "", kVerdictWidth) +
+            kBetweenColumns + part + '\n';
   }
   return head + text;
 }
 
 std::string ProofTable::details(const Proof& proof, bool with_evidence, bool with_where) const {
   // Below the names of the kinds, so that the column of the verdicts stays free.
-  const std::string space(indent_ + kVerdictWidth + kGap.size() + 2, ' ');
+  const std::string space(indent_ + kVerdictWidth + kBetweenColumns.size() + 2, ' ');
   std::string text;
   const auto detail = [&](const std::string& label, const std::string& value) {
-    const std::string head = label.empty() ? "" : padded(label, 8) + kGap;
+    const std::string head = label.empty() ? "" : padded(label, 8) + kBetweenColumns;
     const std::size_t left = space.size() + head.size();
     const std::size_t columns = std::max(kLeastText, width_ - std::min(width_, left));
     bool first = true;
