@@ -13,6 +13,7 @@
 #include "symbolic/algebra/exact_constant.hpp"
 #include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
@@ -128,21 +129,28 @@ class Carrier {
     result.parameters = parameters_;
     result.time = model_.time;
     result.fixed = model_.fixed;
-    for (const Assumption& assumption : model_.assumptions)
+    for (const Assumption& assumption : model_.assumptions) {
       result.assumptions.push_back(
           {carried(assumption.difference), assumption.comparison, assumption.text});
+      need(assumption.difference, result.domain);
+    }
     for (const Assumption& assumption : set_.domain) result.assumptions.push_back(assumption);
     result.constraints = set_.constraints;
     result.linear_bracket = set_.linear_bracket;
     result.poisson = set_.bracket;
+    result.bracket_domain = set_.bracket_domain;
     result.hamiltonian = carried(*model_.hamiltonian);
+    // Nothing is said of points at which the case, as it is written, has no values there.
+    result.domain.insert(result.domain.end(), map_.domain.begin(), map_.domain.end());
+    need(*model_.hamiltonian, result.domain);
+    for (const ex& part : model_.domain) need(part, result.domain);
     result.field = set_.bracket.flow(*result.hamiltonian);
     result.conditionals = carried(model_.conditionals);
     // A Casimir function need not be one on a larger space, but it is an integral there; where the
     // map is Poisson on the constraints alone, only on these.
     for (const auto* list : {&model_.casimirs, &model_.integrals}) {
       for (const NamedExpression& f : *list) {
-        const NamedExpression next = named(f.name, carried(f.value));
+        const NamedExpression next = carried(f, free_name(f.name));
         if (map_.on.empty())
           result.integrals.push_back(next);
         else
@@ -151,10 +159,16 @@ class Carrier {
     }
     if (last_) {
       for (const NamedExpression& f : set_.casimirs)
-        result.casimirs.push_back(named(f.name, f.value));
+        result.casimirs.push_back({free_name(f.name), f.value, {}, f.domain});
     }
     result.invariant_relations = carried(model_.invariant_relations);
     for (LaxPair pair : model_.lax_pairs) {
+      std::vector<ex> domain;
+      for (const ex& part : pair.domain) need(part, domain);
+      for (const auto* matrix : {&pair.l, &pair.a})
+        for (std::size_t i = 0; i < matrix->nops(); ++i) need(matrix->op(i), domain);
+      pair.domain = std::move(domain);
+      for (NamedExpression& f : pair.on) f = carried(f, f.name);
       for (unsigned i = 0; i < pair.l.rows(); ++i) {
         for (unsigned j = 0; j < pair.l.cols(); ++j) {
           pair.l(i, j) = carried(pair.l(i, j));
@@ -194,15 +208,24 @@ class Carrier {
 
   ex carried(const ex& expression) const { return expression.subs(to_new_, kPlain); }
 
-  NamedExpression named(const std::string& name, const ex& value) {
-    return {free_name(name), value, {}};
+  /// What has to have values where a function of the case is taken at the image of a point.
+  void need(const ex& expression, std::vector<ex>& domain) const {
+    for (const ex& part : substituted_with_parts(expression, to_new_, model_.limits))
+      domain.push_back(part);
+  }
+
+  NamedExpression carried(const NamedExpression& f, std::string name) const {
+    NamedExpression result{std::move(name), carried(f.value), {}, {}};
+    for (const ex& part : f.domain) need(part, result.domain);
+    need(f.value, result.domain);
+    return result;
   }
 
   std::vector<LevelClaim> carried(const std::vector<LevelClaim>& claims) {
     std::vector<LevelClaim> result;
     for (const LevelClaim& claim : claims) {
-      LevelClaim next{named(claim.expression.name, carried(claim.expression.value)), {}};
-      for (const NamedExpression& f : claim.on) next.on.push_back({f.name, carried(f.value), {}});
+      LevelClaim next{carried(claim.expression, free_name(claim.expression.name)), {}};
+      for (const NamedExpression& f : claim.on) next.on.push_back(carried(f, f.name));
       // What is true on the image of the constraints is true on them.
       if (last_) next.on.insert(next.on.end(), set_.constraints.begin(), set_.constraints.end());
       result.push_back(std::move(next));
@@ -246,8 +269,8 @@ class Carrier {
 }  // namespace
 
 std::size_t Atlas::set_of(const Model& model, bool canonical) {
-  Coordinates own{model.name, model.variables,     *model.poisson, canonical, {}, {},
-                  {},         model.linear_bracket};
+  Coordinates own{model.name, model.variables,      *model.poisson,      canonical, {}, {},
+                  {},         model.linear_bracket, model.bracket_domain};
   for (const Assumption& a : model.assumptions) {
     if (only_about(a.difference, model.variables)) own.domain.push_back(a);
   }
@@ -268,14 +291,22 @@ std::size_t Atlas::set_of(const Model& model, bool canonical) {
     const std::vector<ex> names(known->variables.begin(), known->variables.end());
     const GiNaC::exmap renamed = substitution(own.variables, names);
     for (Assumption& a : own.domain) a.difference = a.difference.subs(renamed, kPlain);
+    const auto rename = [&](std::vector<ex>& parts) {
+      for (ex& part : parts) part = part.subs(renamed, kPlain);
+    };
     for (auto* list : {&own.constraints, &own.casimirs}) {
-      for (NamedExpression& f : *list) f.value = f.value.subs(renamed, kPlain);
+      for (NamedExpression& f : *list) {
+        f.value = f.value.subs(renamed, kPlain);
+        rename(f.domain);
+      }
     }
+    rename(own.bracket_domain);
     known->domain = own.domain;
     known->constraints = own.constraints;
     known->casimirs = own.casimirs;
     known->canonical = canonical;
     known->linear_bracket = own.linear_bracket;
+    known->bracket_domain = own.bracket_domain;
   }
   return from;
 }
@@ -294,6 +325,7 @@ void Atlas::add_changes(const Model& model, std::size_t from) {
       forward.branches[0].expressions.push_back(renamed(e, own_names));
     for (const NamedExpression& f : map.on)
       forward.on.push_back({f.name, renamed(f.value, own_names), {}});
+    for (const ex& part : map.domain) forward.domain.push_back(renamed(part, own_names));
     CoordinateChange backward{map.name, to, from, false, {}, {}, {}};
     for (const MapInverse& inverse : map.inverses) {
       CoordinateChange::Branch branch;

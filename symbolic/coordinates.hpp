@@ -18,6 +18,7 @@ struct Coordinates {
   std::vector<NamedExpression> constraints;  ///< about the variables alone
   std::vector<NamedExpression> casimirs;
   bool linear_bracket = false;
+  std::vector<GiNaC::ex> bracket_domain{};  ///< as of Model
 };
 
 /// One step between two sets of variables: a map, or a right inverse of one.
@@ -33,6 +34,7 @@ struct CoordinateChange {
   std::vector<Branch> branches;        ///< the first whose domain holds is used
   std::vector<NamedExpression> on;     ///< where the map is Poisson, over those of `from`
   std::vector<NamedExpression> image;  ///< of an inverse: where it is one, over those of `from`
+  std::vector<GiNaC::ex> domain{};     ///< of a map: as of PoissonMap, over those of `from`
 };
 
 /// Sets of variables, and the maps between them that have an inverse.

@@ -117,10 +117,10 @@ class Builder {
     for (std::size_t i = 0; i < result.next.size(); ++i)
       result.next[i] = substituted(step.next[i], before, file_.limits);
     // What cancels in the composition was needed all the same.
-    for (const auto* parts : {&step.next, &step.next_domain}) {
-      for (const ex& part : *parts)
-        result.next_domain.push_back(substituted(part, before, file_.limits));
-    }
+    for (const auto* list : {&step.next, &step.next_domain})
+      for (const ex& f : *list)
+        for (const ex& part : substituted_with_parts(f, before, file_.limits))
+          result.next_domain.push_back(part);
   }
 
   /// A symmetry that changes a parameter leads to another map where that has a value from outside.

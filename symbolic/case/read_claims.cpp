@@ -189,12 +189,18 @@ class ClaimReader {
                    {}};
     GiNaC::exmap image;
     for (std::size_t i = 0; i < coordinates.size(); ++i) image[coordinates[i]] = map.expressions[i];
-    for (const ex& part : target_domain) domain.push_back(substituted(part, image, file_.limits));
+    const auto need_at_image = [&](const ex& f) {
+      for (const ex& part : substituted_with_parts(f, image, file_.limits)) domain.push_back(part);
+    };
+    for (const ex& part : target_domain) need_at_image(part);
+    for (std::size_t i = 0; i < coordinates.size(); ++i)
+      for (std::size_t j = i + 1; j < coordinates.size(); ++j) need_at_image((*bracket)(i, j));
     for (const Text& condition : target.domain) {
       std::vector<ex> lost;
       // A map leads into the target's domain: where it does not, nothing is claimed.
       Assumption inside = assumption_of(condition, names, lost);
-      for (const ex& part : lost) domain.push_back(substituted(part, image, file_.limits));
+      for (const ex& part : lost) need_at_image(part);
+      need_at_image(inside.difference);
       if (inside.comparison == Comparison::equal) {
         map.image.push_back({condition.value, inside.difference, {}});
         continue;
@@ -207,8 +213,8 @@ class ClaimReader {
     for (const Text& function : text.image.empty() ? target.constraints : text.image) {
       const Quantity value = parse_expression(function, names);
       map.image.push_back({function.value, value.value, {}});
-      for (const ex& part : lost_parts(value))
-        domain.push_back(substituted(part, image, file_.limits));
+      for (const ex& part : lost_parts(value)) need_at_image(part);
+      need_at_image(value.value);
     }
     map.domain = std::move(domain);
     for (const MapInverseText& inverse : text.inverses) {

@@ -9,13 +9,17 @@ Residual difference(Prover& prover, std::string label, const GiNaC::ex& value) {
   return {std::move(label), prover.convert(value), [value] { return value; }};
 }
 
+void append(std::vector<GiNaC::ex>& list, const std::vector<GiNaC::ex>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
 std::vector<GiNaC::ex> domain_of(const MapModel& map,
                                  const std::vector<NamedExpression>& functions) {
   std::vector<GiNaC::ex> result = map.next;
-  result.insert(result.end(), map.next_domain.begin(), map.next_domain.end());
+  append(result, map.next_domain);
   for (const GiNaC::ex& value : values_of(functions)) {
     result.push_back(value);
-    result.push_back(map.composed(value));
+    append(result, map.composed_with_parts(value));
   }
   return result;
 }

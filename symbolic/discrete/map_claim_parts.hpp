@@ -14,6 +14,8 @@ namespace casimir::discrete {
 /// That a function vanishes.
 Residual difference(Prover& prover, std::string label, const GiNaC::ex& value);
 
+void append(std::vector<GiNaC::ex>& list, const std::vector<GiNaC::ex>& more);
+
 /// The map, and the functions with what they are defined by, at x and at x'.
 std::vector<GiNaC::ex> domain_of(const MapModel& map,
                                  const std::vector<NamedExpression>& functions);

@@ -228,10 +228,12 @@ std::vector<ex> bracket_entries(const MapModel& map) {
 
 Claim whole_poisson_claim(const MapModel& map) {
   const std::size_t n = map.next.size();
-  std::vector<ex> images;
+  std::vector<ex> images, parts;
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      append(parts, map.composed_with_parts((*map.base.poisson)(i, j)));
       images.push_back(map.sign * map.composed((*map.base.poisson)(i, j)));
+    }
   }
   Claim claim{
       ClaimKind::map, poisson_name(map), false, [&map, images](Prover& prover, Proof& proof) {
@@ -253,8 +255,9 @@ Claim whole_poisson_claim(const MapModel& map) {
         prover.decide(proof, residuals, {});
       }};
   claim.expressions = domain_of(map, {});
-  claim.expressions.insert(claim.expressions.end(), images.begin(), images.end());
-  for (const ex& part : map.base.bracket_domain) claim.expressions.push_back(map.composed(part));
+  append(claim.expressions, parts);
+  for (const ex& part : map.base.bracket_domain)
+    append(claim.expressions, map.composed_with_parts(part));
   claim.subject = Subject::bracket;
   return claim;
 }

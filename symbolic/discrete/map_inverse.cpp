@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 
+#include "symbolic/discrete/map_claim_parts.hpp"
 #include "symbolic/discrete/modular_program.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/expression/expression_size.hpp"
@@ -28,7 +29,7 @@ bool is_proved_inverse(const MapModel& map, const Inverse& inverse) {
               }};
   claim.expressions = map.next;
   claim.expressions.insert(claim.expressions.end(), map.next_domain.begin(), map.next_domain.end());
-  for (const ex& previous : inverse) claim.expressions.push_back(map.composed(previous));
+  for (const ex& previous : inverse) append(claim.expressions, map.composed_with_parts(previous));
   claim.subject = Subject::functions;
   const Proof proof = decide_claims(map.base, {claim}, Meaningless::thrown, {}).front();
   return proof.verdict == Verdict::proved && proof.where.empty();
@@ -193,7 +194,7 @@ bool has_values_where(const MapModel& map, const std::vector<ex>& inverse) {
   std::vector<ex> all = map.next;
   all.insert(all.end(), map.next_domain.begin(), map.next_domain.end());
   const std::vector<std::string> known = implied_by(map.base, all);
-  for (const ex& previous : inverse) all.push_back(map.composed(previous));
+  for (const ex& previous : inverse) append(all, map.composed_with_parts(previous));
   if (!FunctionRing(map.base.symbols(), map.base.assumptions, all, map.base.limits)
            .rests_on_what_was_converted())
     return true;

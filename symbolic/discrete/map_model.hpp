@@ -47,10 +47,15 @@ struct MapModel {
 
   /// f(x') for a function f of x.
   GiNaC::ex composed(const GiNaC::ex& f) const;
+  /// The same, and behind it what f needs at x' and f(x') does not show: `substituted_with_parts`.
+  std::vector<GiNaC::ex> composed_with_parts(const GiNaC::ex& f) const;
 
   /// The map in the place of a flow's equations, for code that writes functions: the values that it
   /// writes for dx/dt are the next ones.
   Model as_field() const;
+
+ private:
+  GiNaC::exmap image() const;
 };
 
 /// Reads every expression of the case file.

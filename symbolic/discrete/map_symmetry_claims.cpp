@@ -5,6 +5,7 @@
 
 #include "symbolic/discrete/map_claim_parts.hpp"
 #include "symbolic/discrete/map_claims.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
@@ -13,17 +14,14 @@ namespace {
 
 using GiNaC::ex;
 
-/// The map at (x, p) -> (S(x), S(p)).
-std::vector<ex> at_image(const MapModel& map, const MapSymmetry& symmetry,
-                         const std::vector<ex>& functions) {
+/// (x, p) -> (S(x), S(p)).
+GiNaC::exmap image_of(const MapModel& map, const MapSymmetry& symmetry) {
   GiNaC::exmap image;
   for (std::size_t i = 0; i < symmetry.variables.size(); ++i)
     image[map.base.variables[i]] = symmetry.variables[i];
   for (std::size_t i = 0; i < symmetry.parameters.size(); ++i)
     image[map.base.parameters[i]] = symmetry.parameters[i];
-  std::vector<ex> result;
-  for (const ex& f : functions) result.push_back(substituted(f, image, map.base.limits));
-  return result;
+  return image;
 }
 
 /// The derivatives of functions by symbols.
@@ -75,7 +73,7 @@ std::string why_not_symmetry(const MapModel& map, const MapSymmetry& symmetry) {
         "whether '{}' keeps the constraints, and is invertible on them, is not known",
         symmetry.name);
   const auto is_kept = [&](const Assumption& assumption) {
-    const ex image = at_image(map, symmetry, {assumption.difference})[0];
+    const ex image = substituted(assumption.difference, image_of(map, symmetry), map.base.limits);
     return std::ranges::any_of(map.base.assumptions, [&](const Assumption& other) {
       const ex ratio = normal_form(image / other.difference);
       return other.comparison == assumption.comparison && GiNaC::is_a<GiNaC::numeric>(ratio) &&
@@ -96,10 +94,11 @@ std::string symmetry_name(const MapSymmetry& symmetry) {
 /// phi(S(x)) = S(phi(x)), or phi(S(phi(x))) = S(x), and S is invertible. The parameters are carried
 /// along by S.
 Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
-  const std::vector<ex> after = at_image(map, symmetry, map.next);
+  const GiNaC::exmap image = image_of(map, symmetry);
   std::vector<ex> left, right;
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    left.push_back(symmetry.reverses ? map.composed(after[i]) : after[i]);
+  for (std::size_t i = 0; i < map.next.size(); ++i) {
+    const ex after = substituted(map.next[i], image, map.base.limits);
+    left.push_back(symmetry.reverses ? map.composed(after) : after);
     right.push_back(symmetry.reverses ? symmetry.variables[i]
                                       : map.composed(symmetry.variables[i]));
   }
@@ -118,16 +117,15 @@ Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
                 judge_invertible(prover, proof, symmetry.name, images, by);
               }};
   claim.expressions = domain_of(map, {});
-  std::vector<ex> parts = at_image(map, symmetry, map.next_domain);
-  parts.insert(parts.end(), symmetry.domain.begin(), symmetry.domain.end());
+  // The map where S leads, and S where the map leads; of a reversal, the map at S(phi(x)).
+  std::vector<ex> parts = symmetry.domain;
+  append(parts, symmetry.variables);
+  for (const auto* list : {&map.next, &map.next_domain})
+    for (const ex& f : *list) append(parts, substituted_with_parts(f, image, map.base.limits));
   for (const ex& part : parts) {
     claim.expressions.push_back(part);
-    claim.expressions.push_back(map.composed(part));
+    append(claim.expressions, map.composed_with_parts(part));
   }
-  claim.expressions.insert(claim.expressions.end(), left.begin(), left.end());
-  claim.expressions.insert(claim.expressions.end(), right.begin(), right.end());
-  claim.expressions.insert(claim.expressions.end(), symmetry.variables.begin(),
-                           symmetry.variables.end());
   claim.subject = Subject::functions;
   return claim;
 }
@@ -143,7 +141,7 @@ namespace {
 
 /// phi at the points that the map leads to, and the other map and what it is defined by at phi.
 struct Conjugated {
-  std::vector<ex> after, other, other_domain;
+  std::vector<ex> after, other, parts;
 };
 
 Conjugated conjugated(const MapModel& map, const MapConjugacy& conjugacy) {
@@ -153,8 +151,8 @@ Conjugated conjugated(const MapModel& map, const MapConjugacy& conjugacy) {
   for (std::size_t i = 0; i < conjugacy.coordinates.size(); ++i)
     at[conjugacy.coordinates[i]] = conjugacy.reverses ? result.after[i] : conjugacy.expressions[i];
   for (const ex& y : conjugacy.map) result.other.push_back(substituted(y, at, map.base.limits));
-  for (const ex& part : conjugacy.map_domain)
-    result.other_domain.push_back(substituted(part, at, map.base.limits));
+  for (const auto* list : {&conjugacy.map, &conjugacy.map_domain})
+    for (const ex& f : *list) append(result.parts, substituted_with_parts(f, at, map.base.limits));
   return result;
 }
 
@@ -209,11 +207,10 @@ Claim whole_conjugacy_claim(const MapModel& map, const MapConjugacy& conjugacy) 
   for (const auto* list : {&conjugacy.expressions, &conjugacy.domain}) {
     for (const ex& part : *list) {
       claim.expressions.push_back(part);
-      claim.expressions.push_back(map.composed(part));
+      append(claim.expressions, map.composed_with_parts(part));
     }
   }
-  for (const auto* list : {&at.after, &at.other, &at.other_domain})
-    claim.expressions.insert(claim.expressions.end(), list->begin(), list->end());
+  append(claim.expressions, at.parts);
   claim.subject = Subject::functions;
   return claim;
 }

@@ -47,6 +47,13 @@ enum class VanishingTerms {
 std::vector<GiNaC::ex> lost_in_substitution(const GiNaC::ex& expression, const GiNaC::exmap& values,
                                             const Limits& limits, VanishingTerms vanishing);
 
+/// The expression with values put in, and behind it what it needs and no longer shows: as of
+/// `lost_in_substitution`, with terms that vanish counted. For what a claim about a composition
+/// f(phi(x)) is about: f(phi(x)) has a value only where f has one at phi(x).
+/// \throws TooLarge, GiNaC::pole_error  as `substituted`
+std::vector<GiNaC::ex> substituted_with_parts(const GiNaC::ex& expression,
+                                              const GiNaC::exmap& values, const Limits& limits);
+
 /// The quantity with these parts, and those that its value shows.
 Quantity with_parts(Quantity quantity, const std::vector<GiNaC::ex>& lost);
 

@@ -88,6 +88,14 @@ std::vector<ex> lost_in_substitution(const ex& expression, const GiNaC::exmap& v
   return LostInSubstitution(values, limits, vanishing)(expression);
 }
 
+std::vector<ex> substituted_with_parts(const ex& expression, const GiNaC::exmap& values,
+                                       const Limits& limits) {
+  std::vector<ex> result =
+      lost_in_substitution(expression, values, limits, VanishingTerms::counted);
+  result.insert(result.begin(), substituted(expression, values, limits));
+  return result;
+}
+
 std::vector<ex> lost_parts(const Quantity& quantity) {
   std::vector<ex> lost;
   if (!quantity.parts) return lost;

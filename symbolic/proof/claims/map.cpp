@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "symbolic/case/limits.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 
@@ -260,19 +261,28 @@ void leads_back_into_domain(const Model& model, Prover& prover, Proof& proof, co
   }
 }
 
-/// What the claim that it is an inverse is about.
+/// What the claim that it is an inverse is about: the inverse at phi(x), and phi, the constraints
+/// and the domain of this case at inverse(phi(x)). What is said of the image is in `map.domain`.
 std::vector<GiNaC::ex> expressions_of_inverse(const Model& model, const PoissonMap& map,
                                               const MapInverse& inverse) {
   std::vector<GiNaC::ex> expressions;
+  const auto need = [&](const GiNaC::ex& f, const GiNaC::exmap& at) {
+    for (const GiNaC::ex& part : substituted_with_parts(f, at, model.limits))
+      expressions.push_back(part);
+  };
+  const GiNaC::exmap image = image_point(map);
+  for (const auto* list : {&inverse.expressions, &inverse.defined_by})
+    for (const GiNaC::ex& f : *list) need(f, image);
+  for (const Assumption& condition : inverse.domain) need(condition.difference, image);
+  const GiNaC::exmap lift = lift_of(model, map, inverse);
+  for (const GiNaC::ex& f : map.expressions) need(f, lift);
+  for (const GiNaC::ex& f : values_of(model.constraints)) need(f, lift);
+  for (const Assumption& condition : model.assumptions) need(condition.difference, lift);
+  for (const ConditionAtInverse& at : domain_at_inverse(model, map, inverse))
+    expressions.push_back(at.condition.difference);
   for (const auto& [label, defect] : inverse_defects(model, map, inverse))
     expressions.push_back(defect);
-  for (const GiNaC::ex& part : composed(inverse.defined_by, image_point(map), model.limits))
-    expressions.push_back(part);
   expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
-  for (const ConditionAtInverse& at : domain_at_inverse(model, map, inverse)) {
-    expressions.push_back(at.there);
-    expressions.push_back(at.condition.difference);
-  }
   return expressions;
 }
 

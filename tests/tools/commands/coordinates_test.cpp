@@ -33,6 +33,30 @@ TEST_P(EverySet, CarriesTheMotionOfTheDirectionCosines) {
     EXPECT_NEAR(coordinate(other, name), coordinate(own, name), 1e-10) << name;
 }
 
+/// What cancels in the case, or in what is carried, is needed in the new variables too.
+TEST(Coordinates, WhatIsCarriedHasTheConditionsOfTheCase) {
+  const Folder folder;
+  folder.write("c.toml", R"toml(title = "t"
+hamiltonian = "(M1^2 + M2^2 + M3^2)/2"
+[phase_space]
+variables = ["M1", "M2", "M3", "g1", "g2", "g3"]
+algebra = "e(3)"
+[integrals]
+K = "M1*g1 + M2*g2 + M3*g3 + log(-1 - M1^2) - log(-1 - M1^2)"
+L = "M1*g1 + M2*g2 + M3*g3 + log(M1) - log(M1)"
+)toml");
+  int seen = 0;
+  const Json proofs =
+      run_in(folder, {"verify", "./c.toml", "--in", "euler-angles", "--json"}).json();
+  for (const Json& claim : proofs.at("claims")) {
+    if (claim.at("kind") != "integral") continue;
+    ++seen;
+    EXPECT_EQ(claim.at("verdict"), claim.at("name") == "K" ? "undecided" : "proved") << claim;
+    if (claim.at("verdict") == "proved") EXPECT_FALSE(claim.at("positive").empty()) << claim;
+  }
+  EXPECT_EQ(seen, 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Coordinates, EverySet,
                          testing::Values("quaternions", "cayley-klein", "euler-angles", "andoyer",
                                          "fixed-frame", "body-e3"),

@@ -348,6 +348,15 @@ TEST(MapCommands, WhatTheMapWasWrittenWithHasValues) {
   EXPECT_EQ(ended.json().at("status"), "non_finite");
   EXPECT_EQ(ended.json().at("steps"), 4);
   EXPECT_TRUE(has(ended.err, "sqrt(x), which the map was written with, has no value")) << ended.err;
+  // The second step has a value nowhere behind the first: log(w) and log(y) cancel in their
+  // composition.
+  folder.write("steps.toml",
+               "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\", \"w\"]\n[[map_step]]\n"
+               "expressions = { y = \"-1 - x^2\", w = \"-1 - x^2\" }\n[[map_step]]\n"
+               "expressions = { x = \"x + log(y) - log(w)\" }\n[[scene]]\nname = \"default\"\n"
+               "initial = { x = \"1\", y = \"2\", w = \"1\" }\nduration = \"3\"\n");
+  EXPECT_EQ(run_in(folder, {"integrate", "./steps.toml", "--json"}).json().at("status"),
+            "non_finite");
   // A flow does not come from x > 0 to x < 0 where it has the pole of 1/x; a map does.
   folder.write("over.toml",
                "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x - 2\"\n"
