@@ -218,7 +218,7 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   how.progress = [&](double share) { progress.show(share); };
   const Stopwatch watch;
   const SweepOutcome outcome =
-      sweep_over(task, grid, ranks, how, [&](const std::vector<PointResult>& rows) {
+      sweep_over(task, ranks, how, [&](const std::vector<PointResult>& rows) {
         const SweepTable table{p.model.name,
                                p.scene->name,
                                std::string(p.study.method().name),

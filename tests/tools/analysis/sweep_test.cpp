@@ -78,11 +78,11 @@ TEST(Sweep, OneThatWasEndedGoesOnFromWhatItKept) {
     EXPECT_EQ(rows.size(), 4U);
   };
   options.give_up = [] { return true; };
-  const SweepOutcome ended = sweep_over(task, row.grid, alone, options, finish);
+  const SweepOutcome ended = sweep_over(task, alone, options, finish);
   EXPECT_FALSE(ended.complete);
   EXPECT_FALSE(finished);
   options.give_up = {};
-  const SweepOutcome whole = sweep_over(task, row.grid, alone, options, finish);
+  const SweepOutcome whole = sweep_over(task, alone, options, finish);
   EXPECT_TRUE(whole.complete);
   EXPECT_TRUE(finished);
   EXPECT_EQ(whole.computed, 4U);
@@ -98,16 +98,33 @@ TEST(Sweep, WhatWasKeptOfAnotherSweepIsRefused) {
   const Integrations task(row.run, row.places, *find_method("taylor"), row.settings,
                           row.grid.points());
   SweepOptions options{.output = folder / "out.csv", .threads = 1};
-  EXPECT_THROW(sweep_over(task, row.grid, alone, options, [](const auto&) {}), RequestError);
+  EXPECT_THROW(sweep_over(task, alone, options, [](const auto&) {}), RequestError);
   options.restart = true;
-  EXPECT_TRUE(sweep_over(task, row.grid, alone, options, [](const auto&) {}).complete);
+  EXPECT_TRUE(sweep_over(task, alone, options, [](const auto&) {}).complete);
+}
+
+/// What was kept of a sweep with other values, or other lets, is no part of this one.
+TEST(Sweep, FollowsFromItsLets) {
+  const Oscillator oscillator;
+  const Scene scene = oscillator.scene(1);
+  const PreparedScene run = prepare(oscillator.model, scene);
+  const Grid grid{{{"phi", Axis::Kind::free, {0, 1}}}}, other{{{"phi", Axis::Kind::free, {0, 2}}}};
+  const GiNaC::symbol phi("phi");
+  const auto fingerprint = [&](const Grid& points, const std::string& name, const GiNaC::ex& let) {
+    return GridPoints(oscillator.model, scene, run, points, {{phi}, {{name, let}}}).fingerprint();
+  };
+  const std::string own = fingerprint(grid, "p", GiNaC::sin(phi));
+  EXPECT_EQ(own, fingerprint(grid, "p", GiNaC::sin(phi)));
+  EXPECT_NE(own, fingerprint(grid, "p", GiNaC::sin(phi) / 2));
+  EXPECT_NE(own, fingerprint(grid, "q", GiNaC::sin(phi)));
+  EXPECT_NE(own, fingerprint(other, "p", GiNaC::sin(phi)));
 }
 
 TEST(Exponents, OfASaddleIsItsEigenvalueAndOfACentreNone) {
-  const auto exponent = [](const GiNaC::ex& square) {
+  const auto exponent = [](const GiNaC::ex& square, int duration = 200) {
     const GiNaC::symbol q("q"), p("p");
     const Model model = hamiltonian_system("h", {q}, {p}, (p * p + square * q * q) / 2);
-    const Scene scene = scene_from(model, {1, 0}, 200);
+    const Scene scene = scene_from(model, {1, 0}, duration);
     const PreparedScene run = prepare(model, scene);
     const Grid grid{{{"q", Axis::Kind::state, {1}}}};
     const GridPoints places(model, scene, run, grid, {{q}});
@@ -119,6 +136,7 @@ TEST(Exponents, OfASaddleIsItsEigenvalueAndOfACentreNone) {
   };
   EXPECT_NEAR(exponent(-4), 2, 0.02);
   EXPECT_NEAR(exponent(4), 0, 0.02);
+  EXPECT_NEAR(exponent(-4, -200), 2, 0.02);  // what grows back in time grows
 }
 
 TEST(Exponents, EquationsThatDependOnTheTimeHaveNone) {

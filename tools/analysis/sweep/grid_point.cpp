@@ -8,7 +8,9 @@
 
 #include "codegen/program_of.hpp"
 #include "runtime/evaluate.hpp"
+#include "symbolic/algebra/number_text.hpp"
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/proof/exact_text.hpp"
 #include "tools/analysis/run/point_check.hpp"
 
 namespace casimir {
@@ -23,11 +25,17 @@ std::size_t place_in(const std::vector<std::string>& names, const std::string& n
 GridPoints::GridPoints(const Model& model, const Scene& scene, const PreparedScene& run,
                        const Grid& grid, const Lets& lets)
     : run_(run), grid_(grid) {
-  for (const Axis& axis : grid.axes) axes_.push_back(target(axis.name));
+  for (const Axis& axis : grid.axes) {
+    axes_.push_back(target(axis.name));
+    fingerprint_ += axis.name;
+    for (const double x : axis.values) fingerprint_ += " " + exact_text(x);
+    fingerprint_ += "\n";
+  }
   std::vector<GiNaC::ex> functions;
   for (const auto& [name, value] : lets.values) {
     lets_.push_back(target(name));
     functions.push_back(value);
+    fingerprint_ += fmt::format("{} = {}\n", name, expression_text(value));
   }
   let_values_ = program_of(functions, lets.axes);
   check(model, scene);

@@ -22,11 +22,17 @@ class GridPoints {
   GridPoints(const Model& model, const Scene& scene, const PreparedScene& run, const Grid& grid,
              const Lets& lets);
 
+  /// How many there are.
+  std::size_t count() const { return grid_.points(); }
+
   /// State and parameters of the run at a point.
   std::pair<std::vector<double>, std::vector<double>> at(std::size_t point) const;
 
   /// The scene with the values of a point, as the exact numbers that these doubles are.
   Scene scene_at(std::size_t point, const Model& model, const Scene& scene) const;
+
+  /// Every value of the axes, and the lets: what a sweep follows from beside its task.
+  const std::string& fingerprint() const { return fingerprint_; }
 
  private:
   struct Target {
@@ -41,6 +47,7 @@ class GridPoints {
   const Grid& grid_;
   std::vector<Target> axes_, lets_;
   Program let_values_;  ///< inputs: the axes, then the parameters of the run
+  std::string fingerprint_;
 };
 
 }  // namespace casimir

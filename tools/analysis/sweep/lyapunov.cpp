@@ -63,9 +63,10 @@ PointResult LyapunovExponents::follow(const Module& module, std::size_t point,
       return {Status::non_finite, {time, kNoExponent, kNoExponent, steps}};
     growth += std::log(size);
     for (std::size_t i = n; i < state.size(); ++i) state[i] /= size;
-    if (2 * (part + 1) == kPartsOfRun) half = growth / time;
+    if (2 * (part + 1) == kPartsOfRun) half = growth / std::abs(time);
   }
-  return {Status::ok, {settings_.duration, growth / settings_.duration, half, steps}};
+  // A motion that is followed back in time is chaotic where its deviations grow all the same.
+  return {Status::ok, {settings_.duration, growth / std::abs(settings_.duration), half, steps}};
 }
 
 std::vector<PointResult> LyapunovExponents::run(const std::vector<std::size_t>& points, int threads,

@@ -30,6 +30,8 @@ Sections::Sections(const Model& model, const Scene& scene, const GridPoints& pla
                       problem.plotted[0].text, problem.plotted[1].text) +
           emit_module(problem.run.specialisation);
   for (const double x : problem.run.initial) text_ += exact_text(x) + " ";
+  for (std::size_t i = 0; i < problem.levels.size(); ++i)
+    text_ += problem.level_names[i] + " " + exact_text(problem.levels[i]) + "\n";
 }
 
 std::vector<std::string> Sections::columns() const {

@@ -20,6 +20,7 @@ class Sections : public SweepTask {
   std::vector<std::string> columns() const override;
   std::string principal_column() const override { return "chaotic"; }
   std::string fingerprint() const override;
+  const GridPoints& places() const override { return places_; }
   std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
                                const std::function<bool()>& give_up) const override;
 

@@ -20,29 +20,19 @@ using Clock = std::chrono::steady_clock;
 constexpr double kRoundSeconds = 0.5;
 constexpr std::size_t kFirstRound = 64, kLongestRound = 1 << 16;
 
-std::string text_of(const Grid& grid) {
-  std::string text;
-  for (const Axis& axis : grid.axes) {
-    text += axis.name;
-    for (const double x : axis.values) text += " " + exact_text(x);
-    text += "\n";
-  }
-  return text;
-}
-
 class Sweep {
  public:
-  Sweep(const SweepTask& task, const Grid& grid, const Ranks& ranks, const SweepOptions& options)
+  Sweep(const SweepTask& task, const Ranks& ranks, const SweepOptions& options)
       : task_(task),
         ranks_(ranks),
         options_(options),
         columns_(task.columns().size()),
-        points_(grid.points()) {}
+        points_(task.places().count()) {}
 
   /// In the rank that speaks. \throws RequestError, EnvironmentError
-  void open_journal(const Grid& grid) {
-    journal_.emplace(options_.output, digest(task_.fingerprint() + text_of(grid)), columns_,
-                     options_.restart);
+  void open_journal() {
+    journal_.emplace(options_.output, digest(task_.fingerprint() + task_.places().fingerprint()),
+                     columns_, options_.restart);
   }
 
   SweepOutcome run(const std::function<void(const std::vector<PointResult>&)>& finish) {
@@ -156,14 +146,13 @@ class Sweep {
 
 }  // namespace
 
-SweepOutcome sweep_over(const SweepTask& task, const Grid& grid, const Ranks& ranks,
-                        const SweepOptions& options,
+SweepOutcome sweep_over(const SweepTask& task, const Ranks& ranks, const SweepOptions& options,
                         const std::function<void(const std::vector<PointResult>&)>& finish) {
-  Sweep sweep(task, grid, ranks, options);
+  Sweep sweep(task, ranks, options);
   std::exception_ptr problem;
   if (ranks.speaks()) {
     try {
-      sweep.open_journal(grid);
+      sweep.open_journal();
     } catch (...) {
       problem = std::current_exception();
     }

@@ -31,8 +31,7 @@ struct SweepOutcome {
 /// keeps each result there as it comes. `finish` is called in the rank that speaks with all of
 /// them; only after it has returned is the journal removed.
 /// \throws RequestError, EnvironmentError see Journal
-SweepOutcome sweep_over(const SweepTask& task, const Grid& grid, const Ranks& ranks,
-                        const SweepOptions& options,
+SweepOutcome sweep_over(const SweepTask& task, const Ranks& ranks, const SweepOptions& options,
                         const std::function<void(const std::vector<PointResult>&)>& finish);
 
 }  // namespace casimir

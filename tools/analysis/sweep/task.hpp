@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/integrate.hpp"
+#include "tools/analysis/sweep/grid_point.hpp"
 
 namespace casimir {
 
@@ -27,9 +28,12 @@ class SweepTask {
   /// The one that a picture shows where none is named; empty where none is more than the others.
   virtual std::string principal_column() const { return {}; }
 
-  /// Everything that the results follow from, besides the grid: a sweep goes on only from results
+  /// Everything that the results follow from, besides the points: a sweep goes on only from results
   /// of the same text.
   virtual std::string fingerprint() const = 0;
+
+  /// Where it is done.
+  virtual const GridPoints& places() const = 0;
 
   /// Results for these points, in their order.
   /// \param give_up  true ends it: the points that are not done are `stopped`
