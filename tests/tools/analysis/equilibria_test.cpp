@@ -163,6 +163,48 @@ TEST(Equilibria, ABadlyConditionedRestIsNoFamily) {
   for (const double x : rest.state) EXPECT_NEAR(x, 0, 1e-12);
 }
 
+EquilibriumReport of_pair(const std::string& x, const std::string& y) {
+  const Model model = model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"" + x +
+      "\"\ny = \"" + y +
+      "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"1\", y = \"1\" }\nduration = \"1\"\n");
+  return found(model, model.scene("default"));
+}
+
+/// What is small beside the rates elsewhere may be all that there is.
+TEST(Equilibria, RootsThatAreNearEachOtherAreNoMultipleOne) {
+  const EquilibriumReport slow = of_pair("10^(-8)*x + x^2", "-y");
+  ASSERT_FALSE(slow.equilibria.empty());
+  for (const Equilibrium& rest : slow.equilibria) {
+    EXPECT_FALSE(rest.degenerate);
+    const bool unstable = std::abs(rest.state[0]) < 1e-9;
+    EXPECT_EQ(rest.stability, unstable ? SpectralStability::unstable : SpectralStability::stable);
+  }
+  const EquilibriumReport wells = of_pair("y", "10^(-9)*x - x^3");
+  ASSERT_EQ(wells.equilibria.size(), 2U);  // and the saddle between, which no start leads to
+  for (const Equilibrium& rest : wells.equilibria) {
+    EXPECT_NEAR(std::abs(rest.state[0]), std::sqrt(1e-9), 1e-12);
+    EXPECT_EQ(rest.stability, SpectralStability::stable);
+  }
+}
+
+TEST(Equilibria, WhereMoreIsLeftThanRoundingNoneIsFound) {
+  EXPECT_TRUE(of_pair("x^2 + 10^(-12)", "y - x").equilibria.empty());
+  EXPECT_TRUE(of_pair("x^2 + 10^(-20)", "y - x").equilibria.empty());
+  EXPECT_FALSE(of_pair("x^2 - 10^(-20)", "y - x").equilibria.empty());
+}
+
+/// Of a multiple root doubles tell that the derivative vanishes where nothing else is left of it.
+TEST(Equilibria, AMultipleRootIsFoundWhereItIs) {
+  const EquilibriumReport cubic = of_pair("y", "-x^3");
+  ASSERT_EQ(cubic.equilibria.size(), 1U);
+  EXPECT_TRUE(cubic.equilibria[0].degenerate);
+  EXPECT_NEAR(cubic.equilibria[0].state[0], 0, 1e-9);
+  const EquilibriumReport shifted = of_pair("x^2 - 2/3*x + 1/9", "-y");
+  ASSERT_EQ(shifted.equilibria.size(), 1U);
+  EXPECT_NE(shifted.equilibria[0].stability, SpectralStability::stable);
+}
+
 TEST(Equilibria, AtAKinkNothingIsToldFromOneSide) {
   for (const char* rate : {"-x1 + 2*abs(x1)", "-(x1 - 1/3) + 2*abs(x1 - 1/3)"}) {
     const Equilibrium rest = rest_of({rate, "-x2"});

@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/analysis/equilibria/newton_solution.hpp"
+
 namespace casimir::equilibria {
 namespace {
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
+
+/// Directions that belong to eigenvalues which are exactly zero: those to other members of a
+/// family, else those in which the derivative is nothing but rounding. Two roots that are near each
+/// other have small eigenvalues, one of them perhaps a positive one.
+const Matrix& surely_flat(const Directions& directions, const Equilibrium& found) {
+  return found.family > 0 ? directions.flat : directions.zero;
+}
 
 }  // namespace
 
@@ -50,9 +59,10 @@ std::vector<Place> Assessment::indistinguishable(const Place& place, const Direc
   constexpr double kOfMultipleRoot = 1e-5, kFarthestAside = 1e-2;
   std::vector<Place> result;
   for (int k = 0; k < kPoints; ++k) {
-    Vector step = Vector::Zero(directions.regular.rows());
+    Vector step(directions.regular.rows());
+    for (double& entry : step) entry = sign() * kRoundingOfPlace;
     for (const auto& direction : directions.regular.colwise()) step += sign() * direction;
-    if (found.family == 0 || scaled_.error(place) > kManyRoundings * kRoundingOfRates)
+    if (found.family == 0 || scaled_.error(place) > kManyRoundings * kRoundingOfTerms)
       for (const auto& direction : directions.flat.colwise())
         step += sign() * kOfMultipleRoot * direction;
     if (step.norm() > kFarthestAside) step *= kFarthestAside / step.norm();
@@ -112,8 +122,8 @@ LinearStructure Assessment::structure(const Place& place, const Directions& dire
   const Matrix derivative = scaled_.derivative(place);
   const Matrix gradients = derivative.bottomLeftCorner(derivative.rows() - n, n);
   LinearStructure result;
-  result.zeros =
-      rank_of_directions(gradients.transpose()) + rank_of_directions(directions.flat.topRows(n));
+  result.zeros = rank_of_directions(gradients.transpose()) +
+                 rank_of_directions(surely_flat(directions, found).topRows(n));
   return result;
 }
 
@@ -133,7 +143,7 @@ Matrix Assessment::null_directions(const Place& place, const Directions& directi
   constexpr double kSmallFlow = 1e-8, kSmallPart = 1e-6;
   const bool all_are_null = count <= 1 || found.velocities.empty();
   take(all_are_null ? flows : Matrix(flows * place.v), kSmallFlow * scaled_.length());
-  if (all_are_null) take(directions.flat.topRows(n), kSmallPart);
+  if (all_are_null) take(surely_flat(directions, found).topRows(n), kSmallPart);
   return columns;
 }
 

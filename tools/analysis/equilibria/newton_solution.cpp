@@ -37,15 +37,24 @@ bool approach(const ScaledEquations& equations, Place& place) {
 }
 
 /// Goes on in the directions in which the equations change so little that the iteration above took
-/// them for flat, as long as that is no rounding: a residual that is small in units of the
-/// equations may be all that they have there.
-void refine(const ScaledEquations& equations, Place& place) {
-  constexpr int kRounds = 60;
-  constexpr double kLongestRefinement = 100, kNothingLeft = 1e-30;
+/// them for flat, as long as it comes nearer: a residual that is small in units of the equations
+/// may be all that they have there.
+/// \param each  each equation in a unit of its own, so that one which hardly changes here is seen
+///              beside the others
+void refine(const ScaledEquations& equations, Place& place, bool each) {
+  constexpr int kRounds = 300;
+  constexpr double kLongestRefinement = 100, kNothingLeft = 1e-80;
   double last = equations.error(place);
   for (int round = 0; round < kRounds && last > kNothingLeft; ++round) {
-    const Vector step =
-        shortest_solution(equations.derivative(place), equations.residual(place), kNoChange);
+    Matrix derivative = equations.derivative(place);
+    Vector residual = equations.residual(place);
+    for (Eigen::Index i = 0; each && i < residual.size(); ++i) {
+      const double unit = derivative.row(i).norm();
+      if (!(unit > 0)) continue;
+      derivative.row(i) /= unit;
+      residual(i) /= unit;
+    }
+    const Vector step = shortest_solution(derivative, residual, kNoChange);
     if (!(step.norm() <= kLongestRefinement)) return;
     const Place next = equations.moved(place, -step);
     const double error = equations.error(next);
@@ -55,12 +64,33 @@ void refine(const ScaledEquations& equations, Place& place) {
   }
 }
 
+/// Whether no more is left than rounding explains: of the terms, and of the place, which is off by
+/// a part of each number, and by a part of the unit where that is 0.
+bool is_solved(const ScaledEquations& equations, const Place& place) {
+  constexpr double kOfNumber = 1e-12, kMargin = 2;
+  constexpr int kPlaces = 4;
+  const Vector left = equations.residual(place);
+  Vector off(place.x.size() + place.v.size());
+  off << place.x.cwiseAbs() / equations.length(), place.v.cwiseAbs();
+  Vector by_place = Vector::Zero(left.size());
+  for (int k = 0; k < kPlaces; ++k) {
+    Vector step(off.size());
+    for (Eigen::Index i = 0; i < step.size(); ++i)
+      step(i) = (i + k) % 2 == 0 || k / 2 == i % 2 ? kRoundingOfPlace : -kRoundingOfPlace;
+    const Vector there = equations.residual(equations.moved(place, step));
+    if (there.allFinite()) by_place = by_place.cwiseMax((there - left).cwiseAbs());
+  }
+  const Vector explained = kSolved * equations.sizes_of_terms(place) + kMargin * by_place +
+                           kOfNumber * (equations.derivative(place).cwiseAbs() * off);
+  return (left.cwiseAbs().array() <= explained.array()).all();
+}
+
 }  // namespace
 
 bool solve(const ScaledEquations& equations, Place& place) {
   if (!approach(equations, place)) return false;
-  refine(equations, place);
-  return true;
+  for (const bool each : {false, true}) refine(equations, place, each);
+  return is_solved(equations, place);
 }
 
 }  // namespace casimir::equilibria

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/evaluate.hpp"
+#include "runtime/program/term_size.hpp"
+
 namespace casimir::equilibria {
 namespace {
 
@@ -12,7 +15,9 @@ using Matrix = Eigen::MatrixXd;
 }  // namespace
 
 Equations::Equations(const Specialisation& spec, std::size_t velocities)
-    : states_(spec.states.size()),
+    : rates_(spec.rhs),
+      levels_(spec.invariants),
+      states_(spec.states.size()),
       velocities_(velocities),
       inputs_(spec.rhs.inputs.size(), 0),
       rhs_(spec.rhs),
@@ -47,6 +52,22 @@ Vector Equations::rates(const Vector& x, const Vector& v) const {
 Vector Equations::residual(const Vector& x, const Vector& v) const {
   Vector result(static_cast<Eigen::Index>(states_ + level_.size()));
   result << rates(x, v), invariants(x, v) - values_;
+  return result;
+}
+
+Vector Equations::sizes_of_terms(const Vector& x, const Vector& v) const {
+  std::vector<SizedNumber> at;
+  for (const double input : inputs(x, v)) at.push_back(Arithmetic<SizedNumber>::plain(input));
+  Vector result(static_cast<Eigen::Index>(states_ + level_.size()));
+  Eigen::Index k = 0;
+  const auto size = [](const SizedNumber& term) {
+    return static_cast<double>(std::max(term.size, std::abs(term.value)));
+  };
+  for (const SizedNumber& rate : evaluate(rates_, at)) result(k++) = size(rate);
+  const std::vector<SizedNumber> functions = evaluate(levels_, at);
+  for (std::size_t i = 0; i < level_.size(); ++i)
+    result(k++) =
+        std::max(size(functions[level_[i]]), std::abs(values_(static_cast<Eigen::Index>(i))));
   return result;
 }
 
@@ -124,6 +145,10 @@ Place ScaledEquations::random_place(std::mt19937_64& random) const {
 
 Vector ScaledEquations::residual(const Place& place) const {
   return equations_.residual(place.x, place.v).cwiseQuotient(sizes_);
+}
+
+Vector ScaledEquations::sizes_of_terms(const Place& place) const {
+  return equations_.sizes_of_terms(place.x, place.v).cwiseQuotient(sizes_);
 }
 
 Matrix ScaledEquations::derivative(const Place& place) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "codegen/specialise.hpp"
+#include "runtime/program.hpp"
 #include "runtime/program/interpreter.hpp"
 
 namespace casimir::equilibria {
@@ -34,6 +35,10 @@ class Equations {
   /// The rates, then the differences to the level.
   Eigen::VectorXd residual(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
 
+  /// For each entry of the residual the size of the terms of which it is the sum: what its rounding
+  /// is measured against.
+  Eigen::VectorXd sizes_of_terms(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
+
   /// What each velocity adds to the rates, a column each: the flows of the symmetries, reversed.
   Eigen::MatrixXd by_velocities(const Eigen::VectorXd& x, Eigen::Index count) const;
 
@@ -46,6 +51,7 @@ class Equations {
  private:
   Eigen::VectorXd invariants(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
 
+  Program rates_, levels_;
   std::size_t states_, velocities_;
   mutable std::vector<double> inputs_;
   Interpreter rhs_, jacobian_, invariants_, gradients_;
@@ -78,6 +84,7 @@ class ScaledEquations {
 
   /// Of Equations, in the units.
   Eigen::VectorXd residual(const Place& place) const;
+  Eigen::VectorXd sizes_of_terms(const Place& place) const;
   /// The largest part of the residual.
   double error(const Place& place) const;
   /// Of the residual by the state and the velocities, in the units.
