@@ -156,6 +156,25 @@ TEST(AnalysedMotion, AFastLineIsNotSeenFolded) {
   }
 }
 
+/// The strong line is in its place and would hide that the weak one, of the force, is not.
+TEST(AnalysedMotion, AWeakFastLineIsNotSeenFolded) {
+  for (const char* force : {"1/10*cos(40*t)", "10^(-3)*cos(40*t)", "1/10*cos((47 + 1/7)*t)"}) {
+    const Model model = model_of(
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"u\"]\ntime = \"t\"\n[equations]\nx = "
+        "\"u\"\nu = \"-x + " +
+        std::string(force) +
+        "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"1\", u = \"0\" }\nduration = "
+        "\"500\"\n");
+    const Scene& scene = model.scene("default");
+    const PreparedScene run = prepare(model, scene);
+    const MotionFrequencies found = analysed_motion(model, scene, run, {}, 3).found;
+    ASSERT_EQ(found.base.size(), 2U) << force;
+    const double fast = std::string(force).find("47") == std::string::npos ? 40 : 47 + 1. / 7;
+    EXPECT_NEAR(found.base[0], 1, 1e-10);
+    EXPECT_NEAR(found.base[1], fast, 1e-9);
+  }
+}
+
 TEST(AnalysedMotion, WhatIsFasterThanAnySamplesIsSaidToBe) {
   const MotionFrequencies found = of_oscillator("1000", "1000", 1);
   EXPECT_FALSE(found.settled);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "runtime/program/interpreter.hpp"
@@ -44,39 +45,107 @@ MotionFrequencies frequencies_of(const AssessedRun& run, const std::vector<std::
   return frequencies_of(motion, lines);
 }
 
-/// Whether the variables change faster than their lines say: then lines have been folded back from
-/// beyond the highest frequency that the samples can tell, to a place that no spectrum shows. The
-/// mean square of a rate is the sum of (frequency * amplitude)^2 / 2 over all lines (Parseval), of
-/// which those that were not found have no more than the rest at the highest frequency.
+/// The rate of each variable at each sample, by the time that runs on.
+std::vector<std::vector<double>> rates_along(const AssessedRun& motion, const PreparedScene& run,
+                                             double interval) {
+  const Specialisation& s = run.specialisation;
+  const Interpreter rates(s.rhs);
+  const double way = motion.settings.duration < 0 ? -1 : 1;
+  const std::size_t n = s.states.size();
+  std::vector<double> inputs(s.rhs.inputs.size()), rate(s.rhs.outputs.size());
+  std::ranges::copy(run.parameters, inputs.begin() + static_cast<std::ptrdiff_t>(n));
+  std::vector<std::vector<double>> result(n);
+  for (std::size_t k = 0; k < motion.trajectory.samples.size(); ++k) {
+    std::ranges::copy(motion.trajectory.samples[k], inputs.begin());
+    inputs.back() = way * static_cast<double>(k) * interval;
+    rates(inputs.data(), rate.data());
+    for (std::size_t i = 0; i < n; ++i) result[i].push_back(way * rate[i]);
+  }
+  return result;
+}
+
+/// exp(i (frequency * t + phase)) at the samples, one after the other.
+class Turning {
+ public:
+  Turning(double frequency, double phase, double interval)
+      : now_(std::polar(1., phase)), step_(std::polar(1., frequency * interval)) {}
+  std::complex<double> next() {
+    const std::complex<double> value = now_;
+    now_ *= step_;
+    return value;
+  }
+
+ private:
+  std::complex<double> now_, step_;
+};
+
+/// What the lines of a variable leave of its rate; of an angle q, of that of exp(i q).
+std::vector<std::complex<double>> rest_of_rate(const AssessedRun& motion, std::size_t i,
+                                               const std::vector<double>& rates,
+                                               const VariableSpectrum& variable, double interval) {
+  std::vector<std::complex<double>> rest;
+  for (std::size_t k = 0; k < rates.size(); ++k)
+    rest.push_back(variable.angle ? std::complex<double>(0, rates[k]) *
+                                        std::polar(1., motion.trajectory.samples[k][i])
+                                  : rates[k]);
+  for (const MotionLine& line : variable.lines) {
+    Turning turning(line.frequency, line.phase, interval);
+    for (std::complex<double>& value : rest) {
+      const std::complex<double> rate =
+          std::complex<double>(0, line.frequency * line.amplitude) * turning.next();
+      value -= variable.angle ? rate : rate.real();
+    }
+  }
+  return rest;
+}
+
+/// Whether a line has been folded back from beyond the highest frequency that the samples can tell:
+/// it is at another place then, and its rate there is not frequency * amplitude, but that of where
+/// it belongs. Each line is asked by itself, since a strong one that is in its place would hide a
+/// weak one that is not.
+bool has_folded_line(const VariableSpectrum& variable, double interval,
+                     const std::vector<std::complex<double>>& rest) {
+  constexpr double kMissed = 0.5, kKnown = 1e-3;
+  const auto count = static_cast<double>(rest.size());
+  return std::ranges::any_of(variable.lines, [&](const MotionLine& line) {
+    const double frequency = std::abs(line.frequency);
+    if (!line.settled || line.error > kKnown * frequency ||
+        frequency * count * interval < 2 * std::numbers::pi)
+      return false;  // it is noise, or hardly a line
+    Turning turning(-line.frequency, 0, interval), window(2 * std::numbers::pi / count, 0, 1);
+    std::complex<double> there = 0;
+    for (const std::complex<double>& value : rest)
+      there += (1 - window.next().real()) * value * turning.next();
+    const double said = frequency * line.amplitude / (variable.angle ? 1 : 2);
+    return !(std::abs(there) / count <= kMissed * said);
+  });
+}
+
+/// Whether the variables change faster than their lines say: then lines have been folded back to a
+/// place that no spectrum shows. The mean square of a rate is the sum of
+/// (frequency * amplitude)^2 / 2 over all lines (Parseval), of which those that were not found have
+/// no more than the rest at the highest frequency.
 bool turns_faster(const AssessedRun& motion, const PreparedScene& run,
                   const MotionFrequencies& found) {
   constexpr double kFaster = 1.3;
-  const Specialisation& s = run.specialisation;
-  const Interpreter rates(s.rhs);
-  const std::size_t n = found.variables.size(), count = motion.trajectory.samples.size();
-  std::vector<double> inputs(s.rhs.inputs.size()), rate(s.rhs.outputs.size()), squares(n), sizes(n);
-  std::ranges::copy(run.parameters, inputs.begin() + static_cast<std::ptrdiff_t>(n));
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::vector<double>& x = motion.trajectory.samples[k];
-    std::ranges::copy(x, inputs.begin());
-    inputs.back() = static_cast<double>(k) * found.interval;
-    if (motion.settings.duration < 0) inputs.back() = -inputs.back();
-    rates(inputs.data(), rate.data());
-    for (std::size_t i = 0; i < n; ++i) {
-      squares[i] += rate[i] * rate[i] / static_cast<double>(count);
-      sizes[i] += x[i] * x[i] / static_cast<double>(count);
-    }
-  }
+  const std::vector<std::vector<double>> rates = rates_along(motion, run, found.interval);
   const double highest = std::numbers::pi / found.interval;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < found.variables.size(); ++i) {
     const VariableSpectrum& variable = found.variables[i];
+    const auto count = static_cast<double>(rates[i].size());
+    double square = 0, size = 0;
+    for (std::size_t k = 0; k < rates[i].size(); ++k) {
+      square += rates[i][k] * rates[i][k] / count;
+      size += std::pow(motion.trajectory.samples[k][i], 2) / count;
+    }
     // Of an angle q the lines are those of exp(i q), whose rate has the size of that of q.
-    double known = 0;
+    double known = std::pow(variable.rest * highest, 2) * (variable.angle ? 1 : size);
     for (const MotionLine& line : variable.lines)
       known += std::pow(line.frequency * line.amplitude, 2) / (variable.angle ? 1 : 2);
-    const double size = variable.angle ? 1 : sizes[i];
-    known += std::pow(variable.rest * highest, 2) * size;
-    if (!(squares[i] <= kFaster * kFaster * known)) return true;  // also what is no number
+    if (!(square <= kFaster * kFaster * known)) return true;  // also what is no number
+    if (has_folded_line(variable, found.interval,
+                        rest_of_rate(motion, i, rates[i], variable, found.interval)))
+      return true;
   }
   return false;
 }
@@ -106,6 +175,8 @@ AnalysedMotion analysed_motion(const Model& model, const Scene& scene, const Pre
     result.found.settled = false;
     result.found.base.clear();
     result.found.base_errors.clear();
+    for (VariableSpectrum& variable : result.found.variables)
+      for (MotionLine& line : variable.lines) line.combination.clear();
     result.found.warnings.push_back(fmt::format(
         "the variables change faster than these lines say: some are beyond {:.4g}, the highest "
         "frequency that {} states can tell, and seen at another; take a shorter duration",
