@@ -100,7 +100,7 @@ nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene,
 
 /// A rounded number for a table; what is nothing but rounding is 0.
 std::string significant(double value, double scale) {
-  return std::abs(value) <= 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
+  return std::abs(value) <= 1e-12 * scale ? "0" : fmt::format("{:.6g}", value);
 }
 
 /// The same of a state; where it is proved to be small and not 0, it is not rounding.

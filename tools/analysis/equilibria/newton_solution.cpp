@@ -42,10 +42,10 @@ bool approach(const ScaledEquations& equations, Place& place) {
 /// \param each  each equation in a unit of its own, so that one which hardly changes here is seen
 ///              beside the others
 void refine(const ScaledEquations& equations, Place& place, bool each) {
-  constexpr int kRounds = 300;
-  constexpr double kLongestRefinement = 100, kNothingLeft = 1e-80;
+  constexpr int kRounds = 600;
+  constexpr double kLongestRefinement = 100;
   double last = equations.error(place);
-  for (int round = 0; round < kRounds && last > kNothingLeft; ++round) {
+  for (int round = 0; round < kRounds && last > 0; ++round) {
     Matrix derivative = equations.derivative(place);
     Vector residual = equations.residual(place);
     for (Eigen::Index i = 0; each && i < residual.size(); ++i) {
@@ -67,7 +67,7 @@ void refine(const ScaledEquations& equations, Place& place, bool each) {
 /// Whether no more is left than rounding explains: of the terms, and of the place, which is off by
 /// a part of each number, and by a part of the unit where that is 0.
 bool is_solved(const ScaledEquations& equations, const Place& place) {
-  constexpr double kOfNumber = 1e-12, kMargin = 2;
+  constexpr double kOfNumber = 1e-12, kTwice = 2;
   constexpr int kPlaces = 4;
   const Vector left = equations.residual(place);
   Vector off(place.x.size() + place.v.size());
@@ -80,7 +80,7 @@ bool is_solved(const ScaledEquations& equations, const Place& place) {
     const Vector there = equations.residual(equations.moved(place, step));
     if (there.allFinite()) by_place = by_place.cwiseMax((there - left).cwiseAbs());
   }
-  const Vector explained = kSolved * equations.sizes_of_terms(place) + kMargin * by_place +
+  const Vector explained = kSolved * equations.sizes_of_terms(place) + kTwice * by_place +
                            kOfNumber * (equations.derivative(place).cwiseAbs() * off);
   return (left.cwiseAbs().array() <= explained.array()).all();
 }

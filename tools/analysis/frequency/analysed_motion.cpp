@@ -105,11 +105,11 @@ std::vector<std::complex<double>> rest_of_rate(const AssessedRun& motion, std::s
 /// weak one that is not.
 bool has_folded_line(const VariableSpectrum& variable, double interval,
                      const std::vector<std::complex<double>>& rest) {
-  constexpr double kMissed = 0.5, kKnown = 1e-3;
+  constexpr double kMissed = 0.5, kLeastKnown = 1e-3;
   const auto count = static_cast<double>(rest.size());
   return std::ranges::any_of(variable.lines, [&](const MotionLine& line) {
     const double frequency = std::abs(line.frequency);
-    if (!line.settled || line.error > kKnown * frequency ||
+    if (!line.settled || line.error > kLeastKnown * frequency ||
         frequency * count * interval < 2 * std::numbers::pi)
       return false;  // it is noise, or hardly a line
     Turning turning(-line.frequency, 0, interval), window(2 * std::numbers::pi / count, 0, 1);
