@@ -119,11 +119,11 @@ configure() {
   fi
 }
 
-# A compiler process takes up to 1.7 gigabytes, most of them about one.
+# A compiler process takes up to 2.1 gigabytes, most of them less than two.
 jobs() {
   local cores memory
   cores=$(nproc 2>/dev/null || echo 1)
-  memory=$(awk '/^MemAvailable:/ {print int($2 / 1500000)}' /proc/meminfo 2>/dev/null || true)
+  memory=$(awk '/^MemAvailable:/ {print int($2 / 2000000)}' /proc/meminfo 2>/dev/null || true)
   [[ -n $memory && $memory -lt $cores ]] && cores=$memory
   [[ $cores -ge 1 ]] || cores=1
   printf '%s\n' "$cores"
