@@ -82,7 +82,8 @@ bool is_solved(const ScaledEquations& equations, const Place& place) {
   }
   const Vector explained = kSolved * equations.sizes_of_terms(place) + kTwice * by_place +
                            kOfNumber * (equations.derivative(place).cwiseAbs() * off);
-  return (left.cwiseAbs().array() <= explained.array()).all();
+  // Beside a term that is infinite anything would be rounding.
+  return explained.allFinite() && (left.cwiseAbs().array() <= explained.array()).all();
 }
 
 }  // namespace
