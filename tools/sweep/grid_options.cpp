@@ -194,6 +194,7 @@ Lets read_lets(const std::vector<std::string>& lets, const Grid& grid, const Mod
       if (other == name) throw option.error(fmt::format("there are two '{}'", name));
     const Text expression{let.substr(equals + 1), {"--let", 1, static_cast<int>(equals) + 2}, let};
     result.values.emplace_back(name, parse_expression(expression, table).value);
+    result.text += let + '\n';
   }
   return result;
 }

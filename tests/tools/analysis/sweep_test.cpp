@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
 #include "tests/folder.hpp"
 #include "tests/tools/analysis/systems.hpp"
@@ -40,8 +41,9 @@ TEST(GridPoints, LetsAreFunctionsOfTheAxes) {
   const PreparedScene run = prepare(oscillator.model, scene);
   const Grid grid{{{"phi", Axis::Kind::free, {0, 1}}}};
   const GiNaC::symbol phi("phi");
-  const GridPoints places(oscillator.model, scene, run, grid,
-                          {{phi}, {{"p", GiNaC::sin(phi)}, {"q", GiNaC::cos(phi)}}});
+  const GridPoints places(
+      oscillator.model, scene, run, grid,
+      {{phi}, {{"p", GiNaC::sin(phi)}, {"q", GiNaC::cos(phi)}}, "p=sin(phi), q=cos(phi)"});
   const auto [state, parameters] = places.at(1);
   EXPECT_NEAR(state[0], std::cos(1), 1e-15);
   EXPECT_NEAR(state[1], std::sin(1), 1e-15);
@@ -110,14 +112,15 @@ TEST(Sweep, FollowsFromItsLets) {
   const PreparedScene run = prepare(oscillator.model, scene);
   const Grid grid{{{"phi", Axis::Kind::free, {0, 1}}}}, other{{{"phi", Axis::Kind::free, {0, 2}}}};
   const GiNaC::symbol phi("phi");
-  const auto fingerprint = [&](const Grid& points, const std::string& name, const GiNaC::ex& let) {
-    return GridPoints(oscillator.model, scene, run, points, {{phi}, {{name, let}}}).fingerprint();
+  const auto fingerprint = [&](const Grid& points, const std::string& text) {
+    const Lets lets{{phi}, {{"p", GiNaC::sin(phi)}}, text};
+    return GridPoints(oscillator.model, scene, run, points, lets).fingerprint();
   };
-  const std::string own = fingerprint(grid, "p", GiNaC::sin(phi));
-  EXPECT_EQ(own, fingerprint(grid, "p", GiNaC::sin(phi)));
-  EXPECT_NE(own, fingerprint(grid, "p", GiNaC::sin(phi) / 2));
-  EXPECT_NE(own, fingerprint(grid, "q", GiNaC::sin(phi)));
-  EXPECT_NE(own, fingerprint(other, "p", GiNaC::sin(phi)));
+  const std::string own = fingerprint(grid, "p=sin(phi)");
+  EXPECT_EQ(own, fingerprint(grid, "p=sin(phi)"));
+  EXPECT_NE(own, fingerprint(grid, "p=sin(phi)/2"));
+  EXPECT_NE(own, fingerprint(other, "p=sin(phi)"));
+  EXPECT_THROW(fingerprint(grid, ""), std::invalid_argument);
 }
 
 TEST(Exponents, OfASaddleIsItsEigenvalueAndOfACentreNone) {

@@ -32,6 +32,9 @@ struct Grid {
 struct Lets {
   std::vector<GiNaC::symbol> axes;                             ///< one for each axis of the grid
   std::vector<std::pair<std::string, GiNaC::ex>> values = {};  ///< by name, over these symbols
+  /// As written: by this a sweep that goes on knows them again, in another process, in which GiNaC
+  /// may print the terms of a sum in another order.
+  std::string text = {};
 };
 
 /// Most points of a sweep.

@@ -8,7 +8,6 @@
 
 #include "codegen/program_of.hpp"
 #include "runtime/evaluate.hpp"
-#include "symbolic/algebra/number_text.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/proof/exact_text.hpp"
 #include "tools/analysis/run/point_check.hpp"
@@ -31,11 +30,13 @@ GridPoints::GridPoints(const Model& model, const Scene& scene, const PreparedSce
     for (const double x : axis.values) fingerprint_ += " " + exact_text(x);
     fingerprint_ += "\n";
   }
+  if (lets.text.empty() && !lets.values.empty())
+    throw std::invalid_argument("the lets of a grid lack their text");
+  fingerprint_ += lets.text;
   std::vector<GiNaC::ex> functions;
   for (const auto& [name, value] : lets.values) {
     lets_.push_back(target(name));
     functions.push_back(value);
-    fingerprint_ += fmt::format("{} = {}\n", name, expression_text(value));
   }
   let_values_ = program_of(functions, lets.axes);
   check(model, scene);

@@ -17,6 +17,7 @@ class GridPoints {
  public:
   /// \param run  with the parameters of the axes and lets at run time
   /// \param lets  over the axes of the grid
+  /// \throws std::invalid_argument  for lets without their text
   /// \throws RequestError  for a point that violates an assumption or leaves a constraint; the
   ///                     message names it
   GridPoints(const Model& model, const Scene& scene, const PreparedScene& run, const Grid& grid,
