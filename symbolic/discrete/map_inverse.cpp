@@ -182,11 +182,14 @@ std::optional<std::vector<ex>> proved_inverse(const MapModel& map, double larges
 
 namespace {
 
-/// What has to be positive for these to have values.
+/// What has to be positive, or not zero, for these to have values.
 std::vector<std::string> implied_by(const Model& model, const std::vector<ex>& expressions) {
   const FunctionRing ring(model.symbols(), model.assumptions, expressions, model.limits);
   std::vector<std::string> conditions;
-  for (const auto& [p, strict] : ring.implied_positive()) conditions.push_back(ring.text(p));
+  const functions::Implied implied = ring.implied_by_values();
+  for (const auto& [p, strict] : implied.positive)
+    conditions.push_back(ring.text(p) + (strict ? " > 0" : " >= 0"));
+  for (const Polynomial& p : implied.nonzero) conditions.push_back(ring.text(p) + " != 0");
   return conditions;
 }
 

@@ -99,12 +99,9 @@ class FunctionRing {
   /// Marks the denominators that occur in `p`, in the order of `denominators`.
   void mark_denominators(const Polynomial& p, std::vector<bool>& marks) const;
 
-  /// What was taken to be positive, beyond the assumptions, since a root or a logarithm is real
-  /// only there.
-  /// With each whether it is not zero either, as what a logarithm is taken of.
-  std::vector<std::pair<Polynomial, bool>> implied_positive() const {
-    return signs_.implied_positive();
-  }
+  /// What was taken to be positive or not zero, beyond the assumptions, since a root or a logarithm
+  /// is real only there.
+  functions::Implied implied_by_values() const { return signs_.implied_by_values(); }
   /// Whether something is taken to hold, beyond the assumptions, since what was converted has
   /// values: that a radicand is not negative, and the square of its root. What is proved then is
   /// proved where all of that has values. (Of a quotient only its denominator is marked.)

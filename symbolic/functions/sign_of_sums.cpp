@@ -30,11 +30,7 @@ bool SignTable::is_never_negative(std::size_t place) const {
 /// Whether a variable of the ring vanishes nowhere.
 bool SignTable::is_never_zero(std::size_t place) const {
   const Polynomial variable = table_.ring().variable(place);
-  const auto listed = [&](const Polynomial& f) { return f == variable || f == -variable; };
-  if (std::any_of(nonzero_.begin(), nonzero_.end(), listed)) return true;
-  if (std::any_of(signs_.begin(), signs_.end(),
-                  [&](const Sign& s) { return s.strict && listed(s.of); }))
-    return true;
+  if (is_listed_nonzero(variable)) return true;
   if (place < table_.symbols().size()) return false;
   const Generator& g = table_.at_place(place);
   if (g.kind == Kind::exponential) return true;

@@ -27,7 +27,7 @@ void SignTable::read_all(Reading reading, const Convert& convert) {
   // By place, and a copy: what is converted may imply more.
   for (const auto* list : {&implied_, &products_}) {
     for (std::size_t i = 0; i < list->size(); ++i) {
-      const Implied implied = (*list)[i];
+      const Product implied = (*list)[i];
       read_sign(convert(implied.value), 1, reading, true, implied.strict);
     }
   }
@@ -45,7 +45,7 @@ bool SignTable::tell_more(const Convert& convert) {
   const std::size_t before = signs_.size() + nonzero_.size();
   for (const Reading reading : {Reading::first, Reading::second}) {
     for (std::size_t i = 0; i < products_.size(); ++i) {
-      const Implied product = products_[i];
+      const Product product = products_[i];
       read_sign(convert(product.value), 1, reading, true, product.strict);
     }
   }
@@ -61,7 +61,7 @@ void SignTable::read_assumption(const Assumption& assumption, Reading reading,
     const Polynomial difference = table_.fraction(convert(assumption.difference)).first;
     if (difference.is_zero()) return;
     for (const auto& [f, exponent] : difference.factors()) {
-      if (!f.is_constant() && !known_nonzero(f)) nonzero_.push_back(f);
+      if (!f.is_constant() && !known_nonzero(f)) add_nonzero(f, false);
     }
     return;
   }
@@ -90,7 +90,7 @@ void SignTable::read_sign(const Polynomial& p, int sign, Reading reading, bool i
     // A product that is not zero has no factor that is; nor has a fraction with a value a
     // denominator that is.
     Polynomial quotient(table_.ring());
-    if ((strict || bottom.divide(f, &quotient)) && !known_nonzero(f)) nonzero_.push_back(f);
+    if ((strict || bottom.divide(f, &quotient)) && !known_nonzero(f)) add_nonzero(f, implied);
     const int known = factors[k].second % 2 == 0 ? 1 : known_sign(f);
     if (factors[k].second % 2 == 1) ++odd;
     if (known == 0) unknown.push_back(f);
@@ -130,11 +130,19 @@ int SignTable::known_sign(const Polynomial& p) const {
 /// Whether an irreducible polynomial is known not to vanish.
 bool SignTable::known_nonzero(const Polynomial& p) const {
   if (p.is_constant()) return !p.is_zero();
-  const auto listed = [&](const Polynomial& f) { return f == p || f == -p; };
-  if (std::any_of(nonzero_.begin(), nonzero_.end(), listed)) return true;
-  if (std::any_of(signs_.begin(), signs_.end(),
-                  [&](const Sign& s) { return s.strict && listed(s.of); }))
-    return true;
+  if (is_listed_nonzero(p)) return true;
+  return is_nonzero_by_form(p);
+}
+
+bool SignTable::is_listed_nonzero(const Polynomial& p) const {
+  const auto listed = [&](const auto& entry) { return entry.of == p || entry.of == -p; };
+  return std::any_of(nonzero_.begin(), nonzero_.end(), listed) ||
+         std::any_of(signs_.begin(), signs_.end(),
+                     [&](const Sign& s) { return s.strict && listed(s); });
+}
+
+/// Whether an irreducible polynomial vanishes nowhere by its form.
+bool SignTable::is_nonzero_by_form(const Polynomial& p) const {
   if (table_.is_exponential(p)) return true;
   if (!table_.is_real_everywhere(p)) return false;
   if (const auto sign = sign_of_number(p)) return *sign != 0;
@@ -183,8 +191,8 @@ int SignTable::sign_of(const Polynomial& p) const {
 }
 
 /// Adds what is not listed. \return whether it was not
-bool SignTable::keep(std::vector<Implied>& list, const GiNaC::ex& value, bool strict) {
-  const bool listed = std::any_of(list.begin(), list.end(), [&](const Implied& known) {
+bool SignTable::keep(std::vector<Product>& list, const GiNaC::ex& value, bool strict) {
+  const bool listed = std::any_of(list.begin(), list.end(), [&](const Product& known) {
     return known.strict == strict && known.value.is_equal(value);
   });
   if (!listed) list.push_back({value, strict});
@@ -196,7 +204,7 @@ void SignTable::imply_sign(const Polynomial& f, int sign, bool strict) {
   if (table_.is_complex() || built_) return;
   if (known_sign(f) != 0) {
     if (strict && !known_nonzero(f)) {
-      nonzero_.push_back(f);
+      add_nonzero(f, true);
       keep(implied_, sign * table_.expression(f), true);
     }
     return;
@@ -253,6 +261,7 @@ void SignTable::keep_product(const Factors& factors, bool strict) {
 /// the only factor of odd power whose sign is not known, if no other factor can vanish.
 /// \param strict  it is not zero either, as what a logarithm is taken of
 void SignTable::imply_radicand(const Factors& factors, bool strict) {
+  if (!built_) radicands_.push_back({factors, strict});
   const Polynomial* unknown = nullptr;
   std::size_t odd = 0;
   bool others_vanish = false;
@@ -309,14 +318,6 @@ bool SignTable::is_assumed_positive(const Polynomial& p) const {
     if (known_sign(f) < 0 && exponent % 2 == 1) sign = -sign;
   }
   return sign > 0;
-}
-
-std::vector<std::pair<Polynomial, bool>> SignTable::implied_positive() const {
-  std::vector<std::pair<Polynomial, bool>> result;
-  for (const Sign& s : signs_) {
-    if (s.implied) result.emplace_back(s.sign > 0 ? s.of : -s.of, s.strict);
-  }
-  return result;
 }
 
 }  // namespace casimir::functions

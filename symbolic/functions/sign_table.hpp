@@ -16,6 +16,14 @@ namespace casimir::functions {
 /// Makes a polynomial of an expression, and keeps it.
 using Convert = std::function<const Polynomial&(const GiNaC::ex&)>;
 
+/// What roots and logarithms imply where they are real, beyond the assumptions.
+struct Implied {
+  /// Not negative; with each whether it is not zero either, as what a logarithm is taken of.
+  std::vector<std::pair<Polynomial, bool>> positive;
+  std::vector<Polynomial> nonzero;  ///< irreducible
+  bool empty() const { return positive.empty() && nonzero.empty(); }
+};
+
 /// The signs that are known of the polynomials of a table: from assumptions, and since roots and
 /// logarithms are real.
 class SignTable {
@@ -27,6 +35,7 @@ class SignTable {
   void restart() {
     signs_.clear();
     nonzero_.clear();
+    radicands_.clear();
   }
   /// Ends the building of the ring: what is converted from then on says no more of signs.
   void finish() { built_ = true; }
@@ -55,7 +64,7 @@ class SignTable {
   bool is_nowhere_zero(const Polynomial& p) const;
   bool is_assumed_positive(const Polynomial& p) const;
   std::vector<Polynomial> real_zeros(const Polynomial& p) const;
-  std::vector<std::pair<Polynomial, bool>> implied_positive() const;
+  Implied implied_by_values() const;
   bool rests_on_what_was_converted() const;
 
   /// Learns from the radicand of an even root that it is not negative where the root is real.
@@ -74,9 +83,17 @@ class SignTable {
     bool implied;  ///< by a root or a logarithm, else assumed
     bool strict;   ///< it does not vanish
   };
-  struct Implied {
+  struct Product {
     GiNaC::ex value;  ///< not negative where the roots and logarithms are real
     bool strict;      ///< nor zero
+  };
+  struct Nonzero {
+    Polynomial of;  ///< irreducible
+    bool implied;   ///< by a root or a logarithm, else assumed
+  };
+  struct Radicand {
+    Factors factors;
+    bool strict;  ///< it is not zero either
   };
   static constexpr int kSignsInSum = 3;  ///< known signs that are added up to find another
 
@@ -100,16 +117,22 @@ class SignTable {
   std::optional<bool> is_not_negative(const Polynomial& p, int depth = kSignsInSum) const;
   Polynomial zeros_of_variable(std::size_t place) const;
   std::vector<Polynomial> zeros_of_terms(const Polynomial& p) const;
-  static bool keep(std::vector<Implied>& list, const GiNaC::ex& value, bool strict);
+  bool is_listed_nonzero(const Polynomial& f) const;
+  bool is_nonzero_by_form(const Polynomial& f) const;
+  bool is_nonzero_unless_listed(const Polynomial& f) const;
+  void add_nonzero(const Polynomial& f, bool implied) { nonzero_.push_back({f, implied}); }
+  void add_conditions(const Radicand& radicand, Implied& conditions) const;
+  static bool keep(std::vector<Product>& list, const GiNaC::ex& value, bool strict);
 
   const GeneratorTable& table_;
   std::vector<Assumption> assumptions_;
   bool built_ = false;
   std::vector<Sign> signs_;
-  std::vector<Polynomial> nonzero_;  ///< assumed not to vanish; irreducible
-  std::vector<Implied> implied_;
+  std::vector<Nonzero> nonzero_;
+  std::vector<Product> implied_;
   std::vector<GiNaC::ex> divisors_;  ///< of radicands, irreducible: where one vanishes is no value
-  std::vector<Implied> products_;    ///< the same, where no single sign followed when it was met
+  std::vector<Product> products_;    ///< the same, where no single sign followed when it was met
+  std::vector<Radicand> radicands_;  ///< all that were met since the last restart
 };
 
 }  // namespace casimir::functions

@@ -125,18 +125,22 @@ void Prover::say_conditions(Proof& proof) {
     if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))
       proof.nonzero.push_back(ring_.text(denominators[k]));
   }
-  // The ring meets them in an order that differs from one process to the next.
-  std::sort(proof.nonzero.begin(), proof.nonzero.end());
   say_where_values_are(proof);
+  // The ring meets them in an order that differs from one process to the next.
+  std::ranges::sort(proof.nonzero);
+  const auto repeated = std::ranges::unique(proof.nonzero);
+  proof.nonzero.erase(repeated.begin(), repeated.end());
 }
 
 void Prover::say_where_values_are(Proof& proof) const {
   proof.positive.clear();
   proof.not_zero.clear();
-  for (const auto& [p, strict] : ring_.implied_positive()) {
+  const functions::Implied implied = ring_.implied_by_values();
+  for (const auto& [p, strict] : implied.positive) {
     proof.positive.push_back(ring_.text(p));
     if (strict) proof.not_zero.push_back(proof.positive.back());
   }
+  for (const Polynomial& p : implied.nonzero) proof.nonzero.push_back(ring_.text(p));
 }
 
 }  // namespace casimir

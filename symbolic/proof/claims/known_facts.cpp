@@ -65,8 +65,10 @@ Functions known_integrals(const Model& model) {
 /// Where the functions of a relation have values, beyond the assumptions: a phrase, or nothing.
 std::string where_all_have_values(const Prover& prover) {
   std::vector<std::string> conditions;
-  for (const auto& [p, strict] : prover.ring().implied_positive())
+  const functions::Implied implied = prover.ring().implied_by_values();
+  for (const auto& [p, strict] : implied.positive)
     conditions.push_back(prover.ring().text(p) + (strict ? " > 0" : " >= 0"));
+  for (const Polynomial& p : implied.nonzero) conditions.push_back(prover.ring().text(p) + " != 0");
   return conditions.empty() ? "" : fmt::format(", where {}", fmt::join(conditions, ", "));
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
@@ -131,6 +132,45 @@ TEST(Domains, OfIntegralsThatAreNotUsedAreSaid) {
   const Proof proof = proof_in(canonical("p1^2/2", integrals), "liouville");
   EXPECT_EQ(proof.verdict, Verdict::proved);
   EXPECT_EQ(proof.positive, std::vector<std::string>{"q3"});
+}
+
+/// What is said of where an identity in x, y and z holds.
+std::set<std::string> conditions_of_identity(const std::string& left, const std::string& right) {
+  const std::string claim =
+      "[equations]\nx = \"1\"\ny = \"1\"\nz = \"1\"\n" + identity(left, right);
+  const Proof proof =
+      proof_in("[phase_space]\nvariables = [\"x\",\"y\",\"z\"]\n" + claim, "identity");
+  EXPECT_EQ(proof.verdict, Verdict::proved) << left;
+  std::set<std::string> result;
+  for (const std::string& p : proof.positive) {
+    const auto& strict = proof.not_zero;
+    result.insert(p + (std::ranges::find(strict, p) != strict.end() ? " > 0" : " >= 0"));
+  }
+  for (const std::string& p : proof.nonzero) result.insert(p + " != 0");
+  return result;
+}
+
+TEST(Domains, OfProductsUnderRootsAndLogarithmsAreSaid) {
+  using Conditions = std::set<std::string>;
+  EXPECT_EQ(conditions_of_identity("exp(log(x*y))", "x*y"), Conditions{"x*y > 0"});
+  EXPECT_EQ(conditions_of_identity("sqrt(x*y)^2", "x*y"), Conditions{"x*y >= 0"});
+  EXPECT_EQ(conditions_of_identity("sqrt(x*y)/sqrt(x*y)", "1"), Conditions{"x*y > 0"});
+  EXPECT_EQ(conditions_of_identity("sqrt(x^2*y)^2", "x^2*y"), Conditions{"x^2*y >= 0"});
+  EXPECT_EQ(conditions_of_identity("sqrt(-x^2)^2", "-x^2"), Conditions{"-x^2 >= 0"});
+  EXPECT_EQ(conditions_of_identity("log(x*y*z) - log(z*y*x)", "0"), Conditions{"x*y*z > 0"});
+}
+
+TEST(Domains, OfLogarithmsAreWithoutTheZerosOfSquares) {
+  using Conditions = std::set<std::string>;
+  EXPECT_EQ(conditions_of_identity("exp(log(x^2))", "x^2"), Conditions{"x != 0"});
+  EXPECT_EQ(conditions_of_identity("exp(log(x^2*y))", "x^2*y"), (Conditions{"x != 0", "y > 0"}));
+  EXPECT_EQ(conditions_of_identity("exp(log(x^2 + y^2))", "x^2 + y^2"),
+            Conditions{"x^2 + y^2 != 0"});
+  EXPECT_EQ(conditions_of_identity("exp(log(x^2 + 1))", "x^2 + 1"), Conditions{});
+  EXPECT_EQ(conditions_of_identity("sqrt(x)/sqrt(x)", "1"), Conditions{"x > 0"});
+  // The roots say that neither is negative, the logarithm that neither is zero.
+  EXPECT_EQ(conditions_of_identity("exp(log(x*y))*sqrt(x)*sqrt(y)", "x*y*sqrt(x)*sqrt(y)"),
+            (Conditions{"x > 0", "y > 0"}));
 }
 
 TEST(Domains, WithoutInsideSpeakForThePartOfTheirPoint) {
