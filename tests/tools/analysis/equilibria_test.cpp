@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/tools/analysis/systems.hpp"
+#include "tools/analysis/equilibria/validated_equilibria.hpp"
 
 namespace casimir::test {
 namespace {
@@ -227,6 +228,37 @@ TEST(Equilibria, CasimirFunctionsGiveExactZeros) {
     EXPECT_NE(rest.stability, SpectralStability::undecided);
     EXPECT_EQ(std::ranges::count(rest.eigenvalues, 0.), 1);
   }
+}
+
+TEST(Equilibria, OfConstraintsLieOnThemAndAreSeenAlongThem) {
+  // A pendulum in Cartesian coordinates: equations that say nothing off the circle.
+  const Model pendulum = model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\", \"u\", \"v\"]\n"
+      "constraints = [\"x^2 + y^2 - 1\", \"x*u + y*v\"]\n[definitions]\n"
+      "k = \"y - u^2 - v^2\"\n[equations]\nx = \"u\"\ny = \"v\"\nu = \"k*x\"\n"
+      "v = \"k*y - 1\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { x = \"1\", y = \"0\", u = \"0\", v = \"0\" }\nduration = \"1\"\n");
+  const Scene& scene = pendulum.scene("default");
+  const EquilibriumReport report = found(pendulum, scene);
+  EXPECT_EQ(report.level.size(), 2U);
+  ASSERT_EQ(report.equilibria.size(), 2U);
+  for (const Equilibrium& rest : report.equilibria) {
+    const bool below = rest.state[1] < 0;
+    ASSERT_EQ(rest.eigenvalues.size(), 2U);  // those across the circle are no motions
+    EXPECT_NEAR(rest.growth(), below ? 0 : 1, 1e-9);
+    EXPECT_NEAR(std::abs(rest.eigenvalues[0].imag()), below ? 1 : 0, 1e-9);
+    EXPECT_EQ(rest.stability == SpectralStability::unstable, !below);
+  }
+  for (const ProvedEquilibrium& proof : enclose_equilibria(pendulum, scene, report))
+    EXPECT_FALSE(proof.proved);
+
+  // The centre of a circle is not on it.
+  const Model circle = model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n"
+      "constraints = [\"x^2 + y^2 - 1\"]\n[equations]\nx = \"-y\"\ny = \"x\"\n"
+      "[[scene]]\nname = \"default\"\ninitial = { x = \"1\", y = \"0\" }\n"
+      "duration = \"1\"\n");
+  EXPECT_TRUE(found(circle, circle.scene("default")).equilibria.empty());
 }
 
 TEST(Equilibria, EquationsThatDependOnTheTimeHaveNone) {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 
 #include "codegen/specialise.hpp"
+#include "symbolic/prove.hpp"
 #include "symbolic/search/search.hpp"
 #include "tools/analysis/equilibria/equilibrium_assessment.hpp"
 #include "tools/analysis/equilibria/equilibrium_collection.hpp"
@@ -16,6 +18,12 @@ namespace casimir {
 namespace {
 
 constexpr std::size_t kMostStarts = 400;
+
+using Functions = std::vector<NamedExpression>;
+
+// What the level's functions are called among the invariants of the extended model.
+std::string symmetry_name(std::size_t k) { return fmt::format("symmetry_{}", k + 1); }
+std::string constraint_name(std::size_t k) { return fmt::format("constraint_{}", k + 1); }
 
 /// The integrals of degree 1 that are no Casimirs.
 std::vector<GiNaC::ex> linear_integrals(const Model& model, std::vector<std::string>& names) {
@@ -31,9 +39,21 @@ std::vector<GiNaC::ex> linear_integrals(const Model& model, std::vector<std::str
   return result;
 }
 
-/// The model with H - sum v_k F_k in place of H; the velocities v_k are parameters, at the end.
+/// The constraints that say more than the Casimir functions: without a bracket all of them.
+Functions own_constraints(const Model& model) {
+  Functions result;
+  for (const NamedExpression& c : model.constraints) {
+    const bool casimir =
+        model.poisson && prove_claim(model, ClaimKind::casimir, c).verdict == Verdict::proved;
+    if (!casimir) result.push_back(c);
+  }
+  return result;
+}
+
+/// The model with H - sum v_k F_k in place of H; the velocities v_k are parameters, at the end. Of
+/// its integrals these stay, and the constraints stand behind them.
 Model with_velocities(Model model, Scene& scene, const std::vector<GiNaC::ex>& integrals,
-                      std::vector<std::string>& names) {
+                      const Functions& constraints, std::vector<std::string>& names) {
   for (std::size_t k = 0; k < integrals.size(); ++k) {
     const GiNaC::symbol velocity(fmt::format("velocity_{}", k + 1));
     model.hamiltonian = *model.hamiltonian - velocity * integrals[k];
@@ -44,7 +64,9 @@ Model with_velocities(Model model, Scene& scene, const std::vector<GiNaC::ex>& i
   if (!integrals.empty()) model.field = model.poisson->flow(*model.hamiltonian);
   model.integrals.clear();
   for (std::size_t k = 0; k < integrals.size(); ++k)
-    model.integrals.push_back({fmt::format("symmetry_{}", k + 1), integrals[k], {}});
+    model.integrals.push_back({symmetry_name(k), integrals[k], {}});
+  for (std::size_t k = 0; k < constraints.size(); ++k)
+    model.integrals.push_back({constraint_name(k), constraints[k].value, {}});
   return model;
 }
 
@@ -73,15 +95,26 @@ EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
   SpecialiseOptions options;
   options.observe.emplace();
   options.gradients = true;
-  const Model extended = with_velocities(model, own, integrals, options.keep_parameters);
+  const Functions constraints = own_constraints(model);
+  const Model extended =
+      with_velocities(model, own, integrals, constraints, options.keep_parameters);
   const Specialisation spec = specialise(extended, own, options);
   if (spec.uses_time) throw ModelError("equations that depend on the time have no equilibria");
+  std::map<std::string, std::string> shown;
+  for (std::size_t k = 0; k < integrals.size(); ++k)
+    shown.emplace(symmetry_name(k), report.symmetries[k]);
+  for (std::size_t k = 0; k < constraints.size(); ++k)
+    shown.emplace(constraint_name(k), constraints[k].name);
+  std::size_t on_constraints = 0;
   for (const std::string& name : spec.invariant_names) {
     if (name == "H") continue;
-    const bool symmetry = name.rfind("symmetry_", 0) == 0;
-    report.level.push_back(symmetry ? report.symmetries[std::stoul(name.substr(9)) - 1] : name);
+    const auto known = shown.find(name);
+    report.level.push_back(known == shown.end() ? name : known->second);
+    for (std::size_t k = 0; k < constraints.size(); ++k)
+      if (name == constraint_name(k)) ++on_constraints;
   }
-  const equilibria::Equations equations(spec, integrals.size());
+  report.constrained = !constraints.empty();
+  const equilibria::Equations equations(spec, integrals.size(), on_constraints);
   std::mt19937_64 random(1);
   const equilibria::ScaledEquations scaled(equations, integrals.size(), random);
   equilibria::Collection collection(equations, scaled, random);

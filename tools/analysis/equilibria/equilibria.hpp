@@ -34,9 +34,10 @@ struct EquilibriumReport {
   std::vector<std::string> symmetries;        ///< linear integrals whose flows were allowed
   std::vector<GiNaC::ex> symmetry_functions;  ///< the same, over the symbols of the model
   std::vector<std::string> level;             ///< functions that have the values of the scene
-  std::vector<Equilibrium> equilibria;        ///< isolated ones first
-  std::size_t starts = 0;                     ///< of Newton's iteration
-  double size = 1;                            ///< of the scene's state, by which all is measured
+  bool constrained = false;  ///< some are constraints and no Casimirs: eigenvalues are along them
+  std::vector<Equilibrium> equilibria;  ///< isolated ones first
+  std::size_t starts = 0;               ///< of Newton's iteration
+  double size = 1;                      ///< of the scene's state, by which all is measured
 };
 
 /// Equilibria of the equations of motion, and relative equilibria: critical points of H - sum v_k

@@ -44,10 +44,11 @@ void Assessment::operator()(const Place& place, Equilibrium& found) const {
     found.stability = SpectralStability::no_derivative;
     return;
   }
-  const Matrix linearised = equations_.linearised(own.x, own.v);
-  LinearStructure known = structure(own, directions, found);
-  known.forms = [&] { return forms_.at(own.x, linearised); };
-  const auto stability = linear_stability(linearised, error_of(linearised, nearby), known);
+  const std::optional<Matrix> tangent = equations_.tangent(own.x, own.v);
+  const Matrix matrix = linearised(own, tangent);
+  LinearStructure known = structure(own, directions, found, tangent);
+  if (!tangent) known.forms = [&] { return forms_.at(own.x, matrix); };
+  const auto stability = linear_stability(matrix, error_of(matrix, nearby, tangent), known);
   if (!stability) return;
   found.eigenvalues = stability->eigenvalues;
   found.stability = stability->stability;
@@ -72,14 +73,20 @@ std::vector<Place> Assessment::indistinguishable(const Place& place, const Direc
   return result;
 }
 
-Matrix Assessment::error_of(const Matrix& linearised, const std::vector<Place>& nearby) const {
+Matrix Assessment::error_of(const Matrix& matrix, const std::vector<Place>& nearby,
+                            const std::optional<Matrix>& tangent) const {
   constexpr double kOfEntry = 0x1p-49, kOfChange = 2;
-  Matrix changes = Matrix::Zero(linearised.rows(), linearised.cols());
+  Matrix changes = Matrix::Zero(matrix.rows(), matrix.cols());
   for (const Place& other : nearby) {
-    const Matrix there = equations_.linearised(other.x, other.v);
-    if (there.allFinite()) changes = changes.cwiseMax((there - linearised).cwiseAbs());
+    const Matrix there = linearised(other, tangent);
+    if (there.allFinite()) changes = changes.cwiseMax((there - matrix).cwiseAbs());
   }
-  return kOfEntry * linearised.cwiseAbs() + kOfChange * changes;
+  return kOfEntry * matrix.cwiseAbs() + kOfChange * changes;
+}
+
+Matrix Assessment::linearised(const Place& place, const std::optional<Matrix>& tangent) const {
+  const Matrix whole = equations_.linearised(place.x, place.v);
+  return tangent ? Matrix(tangent->transpose() * whole * *tangent) : whole;
 }
 
 bool Assessment::has_no_derivative(const Place& place, const std::vector<Place>& nearby) const {
@@ -109,9 +116,10 @@ double Assessment::difference(const Place& place, double distance) const {
 }
 
 LinearStructure Assessment::structure(const Place& place, const Directions& directions,
-                                      const Equilibrium& found) const {
+                                      const Equilibrium& found,
+                                      const std::optional<Matrix>& tangent) const {
   const auto bracket = bracket_.at(place.x);
-  if (bracket && generic_)
+  if (bracket && generic_ && !tangent)
     if (const auto result =
             hamiltonian_structure(*bracket, *generic_, null_directions(place, directions, found)))
       return *result;
@@ -120,10 +128,14 @@ LinearStructure Assessment::structure(const Place& place, const Directions& dire
   // the family are taken to 0.
   const auto n = static_cast<Eigen::Index>(equations_.states());
   const Matrix derivative = scaled_.derivative(place);
-  const Matrix gradients = derivative.bottomLeftCorner(derivative.rows() - n, n);
+  Matrix gradients = derivative.bottomLeftCorner(derivative.rows() - n, n);
+  Matrix flat = surely_flat(directions, found).topRows(n);
+  if (tangent) {
+    gradients *= *tangent;
+    flat = tangent->transpose() * flat;
+  }
   LinearStructure result;
-  result.zeros = rank_of_directions(gradients.transpose()) +
-                 rank_of_directions(surely_flat(directions, found).topRows(n));
+  result.zeros = rank_of_directions(gradients.transpose()) + rank_of_directions(flat);
   return result;
 }
 

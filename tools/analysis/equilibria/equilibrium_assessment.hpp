@@ -32,15 +32,21 @@ class Assessment {
   std::vector<Place> indistinguishable(const Place& place, const Directions& directions,
                                        const Equilibrium& found) const;
   /// Of each entry: that of its own rounding, and what it changes by to the points nearby.
-  Eigen::MatrixXd error_of(const Eigen::MatrixXd& linearised,
-                           const std::vector<Place>& nearby) const;
+  /// \param tangent  to the constraints, where there are any: the linearised equations are those
+  ///                 along it
+  Eigen::MatrixXd error_of(const Eigen::MatrixXd& matrix, const std::vector<Place>& nearby,
+                           const std::optional<Eigen::MatrixXd>& tangent) const;
+  /// The linearised equations, along the constraints where there are any.
+  Eigen::MatrixXd linearised(const Place& place,
+                             const std::optional<Eigen::MatrixXd>& tangent) const;
   /// Whether the linearised equations are others on the other side, however near: |x|, and not
   /// x|x|.
   bool has_no_derivative(const Place& place, const std::vector<Place>& nearby) const;
   /// The largest difference of the linearised equations across a point.
   double difference(const Place& place, double distance) const;
   LinearStructure structure(const Place& place, const Directions& directions,
-                            const Equilibrium& found) const;
+                            const Equilibrium& found,
+                            const std::optional<Eigen::MatrixXd>& tangent) const;
   /// Directions that a power of the linearised equations takes to 0. The flow of a symmetry is one
   /// where the symmetry is an integral of what moves it, as one alone is, or all are at rest; and
   /// what leads to other solutions is taken to a sum of such flows.

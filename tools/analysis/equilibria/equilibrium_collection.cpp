@@ -37,7 +37,9 @@ std::optional<Equilibrium> described(const Equations& equations, const ScaledEqu
       v.size() > 0 &&
       equations.rates(x, Vector::Zero(v.size())).lpNorm<Eigen::Infinity>() > 1e-8 * scaled.rate();
   if (moves) result.velocities.assign(v.data(), v.data() + v.size());
-  const Matrix linearised = equations.linearised(x, moves ? v : Vector::Zero(v.size()));
+  Matrix linearised = equations.linearised(x, moves ? v : Vector::Zero(v.size()));
+  if (const auto tangent = equations.tangent(x, v))
+    linearised = tangent->transpose() * linearised * *tangent;
   const Matrix matrix = balanced(linearised);
   const auto values = eigenvalues_of(matrix);
   if (!values) return std::nullopt;
@@ -64,6 +66,7 @@ std::optional<Equilibrium> described(const Equations& equations, const ScaledEqu
 
 /// Whether members of two families have the same eigenvalues: then one stands for both.
 bool alike(const Equilibrium& a, const Equilibrium& b) {
+  if (a.eigenvalues.size() != b.eigenvalues.size()) return false;  // where constraints are singular
   double largest = 0, distance = 0;
   for (std::size_t i = 0; i < a.eigenvalues.size(); ++i) {
     distance = std::max(distance, std::abs(a.eigenvalues[i] - b.eigenvalues[i]));

@@ -5,6 +5,7 @@
 
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
+#include "runtime/step/dense.hpp"
 
 namespace casimir::equilibria {
 namespace {
@@ -14,7 +15,7 @@ using Matrix = Eigen::MatrixXd;
 
 }  // namespace
 
-Equations::Equations(const Specialisation& spec, std::size_t velocities)
+Equations::Equations(const Specialisation& spec, std::size_t velocities, std::size_t constraints)
     : rates_(spec.rhs),
       levels_(spec.invariants),
       states_(spec.states.size()),
@@ -26,7 +27,8 @@ Equations::Equations(const Specialisation& spec, std::size_t velocities)
       gradients_(spec.gradients.program),
       jacobian_entries_(spec.jacobian.entries),
       gradient_entries_(spec.gradients.entries),
-      all_(spec.invariants.outputs.size()) {
+      all_(spec.invariants.outputs.size()),
+      constraints_(constraints) {
   // H is on no level here.
   for (std::size_t i = 0; i < spec.invariant_names.size(); ++i)
     if (spec.invariant_names[i] != "H") level_.push_back(i);
@@ -103,6 +105,21 @@ Matrix Equations::derivative(const Vector& x, const Vector& v) const {
     if (place != level_.end()) result(n + (place - level_.begin()), state) = entries[k];
   }
   return result;
+}
+
+std::optional<Matrix> Equations::tangent(const Vector& x, const Vector& v) const {
+  if (constraints_ == 0) return std::nullopt;
+  const auto n = static_cast<Eigen::Index>(states_);
+  const auto count = static_cast<Eigen::Index>(constraints_);
+  const Matrix gradients =
+      derivative(x, v).bottomLeftCorner(static_cast<Eigen::Index>(level_.size()), n).transpose();
+  constexpr double kDependentGradients = 1e-10;
+  const auto rank = [](const Matrix& columns) {
+    return columns.cols() == 0 ? 0 : rank_of(columns, kDependentGradients);
+  };
+  if (rank(gradients) == rank(gradients.leftCols(gradients.cols() - count))) return std::nullopt;
+  const Matrix own = gradients.rightCols(count);
+  return orthogonal_complement(own, n - rank(own));
 }
 
 Vector Equations::invariants(const Vector& x, const Vector& v) const {

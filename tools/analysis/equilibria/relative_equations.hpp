@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -18,8 +19,10 @@ class Equations {
  public:
   /// \param spec        of the model with the velocities as its last parameters; its invariants but
   ///                    H give the level
-  /// \param velocities  how many there are
-  Equations(const Specialisation& spec, std::size_t velocities);
+  /// \param velocities   how many there are
+  /// \param constraints  how many of the invariants, the last ones, are constraints and no more: the
+  ///                     phase space is where they vanish, and off it the equations say nothing
+  Equations(const Specialisation& spec, std::size_t velocities, std::size_t constraints);
 
   /// The state of the scene.
   const Eigen::VectorXd& start() const { return start_; }
@@ -48,6 +51,10 @@ class Equations {
   /// Of the residual by the state and the velocities.
   Eigen::MatrixXd derivative(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
 
+  /// An orthonormal basis, as columns, of what is tangent to the constraints; empty where they do
+  /// not cut more out of the phase space than the other functions of the level do.
+  std::optional<Eigen::MatrixXd> tangent(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
+
  private:
   Eigen::VectorXd invariants(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
 
@@ -56,7 +63,7 @@ class Equations {
   mutable std::vector<double> inputs_;
   Interpreter rhs_, jacobian_, invariants_, gradients_;
   std::vector<std::pair<int, int>> jacobian_entries_, gradient_entries_;
-  std::size_t all_;
+  std::size_t all_, constraints_;
   std::vector<std::size_t> level_;
   Eigen::VectorXd start_, values_;
 };

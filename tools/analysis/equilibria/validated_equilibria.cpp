@@ -176,6 +176,7 @@ class Prover {
         ranges_(intervals_of(model, scene, ranges)),
         report_(report),
         unknowns_(model.variables) {
+    if (report.constrained) unproved_ = "that it lies on the constraints is known in doubles alone";
     check_ranges(model, ranges);
     if (!model.poisson) {
       for (const GiNaC::ex& rate : model.field) equations_.push_back(at_scene(rate));
