@@ -23,9 +23,13 @@ class ClosedForm {
   /// From where on the numbers that the form was made of do not say on which side of a separatrix
   /// the motion is; infinite elsewhere.
   virtual double horizon() const = 0;
-  /// About how much the state is off at most, in parts of the largest values on the way: what is
-  /// left of rounding, since the form is made of the exact numbers of the scene.
+  /// About how much the state is off at most, in parts of `reach`, or of the largest values on the
+  /// way where that is empty: what is left of rounding, since the form is made of the exact numbers
+  /// of the scene.
   virtual double error() const = 0;
+  /// The largest values of the states over a period, where these are what the error is a part of: a
+  /// run that is shorter may not come near them, and then its values are off by more of their own.
+  virtual std::vector<double> reach() const { return {}; }
 };
 
 /// A closed form, or why there is none.

@@ -71,6 +71,13 @@ class FreeBody : public ClosedForm {
   double error() const override {
     return evaluated_error(separatrix_ ? kSeparatrixHorizon : functions_.four_quarters());
   }
+  std::vector<double> reach() const override {
+    std::vector<double> result(3);
+    result[axes_.a] = std::abs(amplitude_[0]);
+    result[axes_.b] = std::abs(amplitude_[1]);
+    result[axes_.d] = std::abs(amplitude_[2]);
+    return result;
+  }
 
  private:
   Axes axes_;

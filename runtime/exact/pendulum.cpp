@@ -90,6 +90,12 @@ class Pendulum : public ClosedForm {
     return evaluated_error(kind_ == Kind::separatrix ? kSeparatrixHorizon
                                                      : functions_.four_quarters());
   }
+  std::vector<double> reach() const override {
+    constexpr double kPi = 3.14159265358979323846;
+    const double modulus = kind_ == Kind::swing ? modulus_ : 1;
+    return {std::abs(lowest_) + kPi * (1 + 2 * std::abs(turns_)),
+            2 * std::abs(signed_rate_ * modulus * momentum_)};
+  }
 
  private:
   enum class Kind { swing, round, separatrix };

@@ -120,6 +120,18 @@ TEST(AutoMethod, LongRunsAreByTheClosedFormWhereThereIsOne) {
             "taylor");
 }
 
+// The same by the sizes of its numbers, and less than a period.
+TEST(AutoMethod, AShortRunWithLargeNumbersIsNotByTheClosedForm) {
+  const auto run = answered(
+      "[phase_space]\nvariables = [\"q\", \"p\"]\n[equations]\nq = \"p/10^20\"\n"
+      "p = \"-10^6*sin(q)\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { q = \"1\", p = \"0\" }\nduration = \"10\"\n",
+      {});
+  EXPECT_EQ(run.at("method"), "taylor");
+  // -10^7 sin(1) but for 10^-12 of it.
+  EXPECT_NEAR(std::stod(run.at("state").at("p").get<std::string>()) / -1e7, std::sin(1.), 2e-12);
+}
+
 TEST(AutoMethod, WithoutACompilerItIsTaylorSeriesAgain) {
   const Folder cache;
   const auto run =

@@ -379,9 +379,8 @@ double moved_by_duration(const PreparedScene& run, const CompiledModule& compile
 /// data, but for the duration, nor what grows on the way is an error of it.
 ErrorEstimate assess_closed_form(const PreparedScene& run, const CompiledModule& compiled,
                                  double error, const Method& method, const Settings& settings,
-                                 const Trajectory& trajectory) {
+                                 const Trajectory& trajectory, const std::vector<double>& sizes) {
   ErrorEstimate trust;
-  const std::vector<double> sizes = sizes_of(trajectory);
   const std::optional<Conditioning> flow =
       conditioning(run, settings, trajectory.time, sizes, false);
   trust.known = true;
@@ -404,10 +403,10 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
                      const Settings& settings, const Trajectory& trajectory, double budget) {
   ErrorEstimate trust;
   if (trajectory.status != Status::ok) return trust;
-  if (method.closed_form)
-    if (const std::optional<double> error = closed_form_error(run))
-      return assess_closed_form(run, compiled, *error, method, settings, trajectory);
   const std::vector<double> sizes = sizes_of(trajectory);
+  if (method.closed_form)
+    if (const std::optional<double> error = closed_form_error(run, sizes))
+      return assess_closed_form(run, compiled, *error, method, settings, trajectory, sizes);
   const std::size_t n = run.initial.size();
   Neighbours neighbours(run, compiled, method, settings, trajectory, sizes);
   // Polynomials of low degree hide nothing from a step.

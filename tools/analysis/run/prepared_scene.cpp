@@ -224,11 +224,23 @@ CompiledModule exact_module(const PreparedScene& run) {
 
 }  // namespace
 
-std::optional<double> closed_form_error(const PreparedScene& run) {
+std::optional<double> closed_form_error(const PreparedScene& run,
+                                        const std::vector<double>& sizes) {
   std::vector<cln::cl_F> start;
   const Recognised found = recognised(run, start);
   if (!found.form) return std::nullopt;
-  return found.form->error();
+  const std::vector<double> reach = found.form->reach();
+  double most = 1;
+  for (std::size_t i = 0; i < reach.size(); ++i)
+    if (sizes[i] > 0) most = std::max(most, reach[i] / sizes[i]);
+  return most * found.form->error();
+}
+
+std::optional<double> closed_form_period(const PreparedScene& run) {
+  std::vector<cln::cl_F> start;
+  const Recognised found = recognised(run, start);
+  if (!found.form) return std::nullopt;
+  return found.form->period();
 }
 
 CompiledModule compile_for(const PreparedScene& run, const Method& method) {
