@@ -24,6 +24,8 @@ constexpr double kMostGrowth = 1e250;
 /// Of deviations, which enter linearly: far below the states, whose errors rule the steps. Where
 /// the states rest they rule nothing, and deviations are as large as states.
 constexpr double kUnit = 0x1p-130, kUnitAtRest = 1;
+/// In so few the states say nothing of how long the steps of deviations may be: x = t takes one.
+constexpr std::size_t kFewSteps = 40;
 /// A state that moves by less, relative to its size, rests.
 constexpr double kRest = 1e-6;
 
@@ -101,26 +103,44 @@ class Follower {
     settings_.atol = std::min(settings.atol * tighter, settings_.rtol * std::ranges::min(sizes));
     settings_.give_up = settings.give_up;
     steps_ = choice.form ? kSteps : kInterpretedSteps;
-    result_.followed = std::abs(duration);
-    result_.growth = {{0, 1}};
+    begin_again();
   }
 
   std::optional<Conditioning> conditioning() {
     const std::size_t n = sizes_.size();
     settings_.max_steps = steps_ / n;
     if (stiff_ || rests()) unit_ = kUnitAtRest;
-    for (std::size_t j = 0; j < n; ++j) {
-      std::vector<double> direction(n, 0.);
-      direction[j] = 1;
-      const auto deviation = follow({0, run_.initial}, direction, j == 0);
-      if (!deviation) return std::nullopt;
-      result_.columns.push_back(deviation->now() / part_of_sizes(run_.initial));
+    if (!follow_columns()) return std::nullopt;
+    if (path_.size() < kFewSteps && unit_ != kUnitAtRest) {
+      unit_ = kUnitAtRest;
+      begin_again();
+      if (!follow_columns()) return std::nullopt;
     }
     if (result_.followed >= 0.99 * std::abs(settings_.duration)) follow_from_later();
     return std::move(result_);
   }
 
  private:
+  void begin_again() {
+    path_.clear();
+    grown_.clear();
+    result_ = {};
+    result_.followed = std::abs(settings_.duration);
+    result_.growth = {{0, 1}};
+  }
+
+  /// \return  whether each of them gets somewhere
+  bool follow_columns() {
+    for (std::size_t j = 0; j < sizes_.size(); ++j) {
+      std::vector<double> direction(sizes_.size(), 0.);
+      direction[j] = 1;
+      const auto deviation = follow({0, run_.initial}, direction, j == 0);
+      if (!deviation) return false;
+      result_.columns.push_back(deviation->now() / part_of_sizes(run_.initial));
+    }
+    return true;
+  }
+
   /// From `from` to the end; the states on the way become starting points if `keep`.
   std::optional<Deviation> follow(const Point& from, const std::vector<double>& direction,
                                   bool keep) {
