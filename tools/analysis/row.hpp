@@ -17,6 +17,7 @@ enum class RowEnd {
   does_not_split,  ///< the method splits the Hamiltonian, and this one does not split
   drifted,         ///< an invariant drifted beyond `Row::bound`
   changes,  ///< no invariant drifted, and one has another rate than zero; `Row::reason` is its name
+  changes_in_step,  ///< the same of a map: another value at the next point
 };
 
 /// One scene by one method: a row of the tables of measured runs.

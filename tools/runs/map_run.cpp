@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "tools/analysis/run/changing_invariant.hpp"
 #include "tools/analysis/run/doubted_invariants.hpp"
 #include "tools/analysis/run/iterate.hpp"
 #include "tools/cli/case_library.hpp"
@@ -138,6 +139,12 @@ Row conserve_map(const MapModel& map, const Scene& scene, const std::optional<do
   if (row.status == Status::ok && row.failed) {
     row.end = RowEnd::drifted;
     row.bound = bound;
+  } else if (!row.failed) {
+    if (auto name = changing_invariant(map, scene)) {
+      row.end = RowEnd::changes_in_step;
+      row.failed = true;
+      row.reason = std::move(*name);
+    }
   }
   return row;
 }

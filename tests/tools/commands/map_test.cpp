@@ -438,6 +438,26 @@ TEST(MapCommands, AnOrbitOfPeriodTwoDoesNotHideAChange) {
   EXPECT_TRUE(std::isinf(number(json.at("invariants").at("E").at("drift"))));
 }
 
+// Lyness' map keeps the first term; beside it the rest is no drift.
+TEST(MapCommands, ASmallChangeBesideALargeValueIsSeen) {
+  const auto lyness = [](const std::string& more) {
+    return "[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"y\"\ny = \"(1 + y)/x\"\n"
+           "[integrals]\nG = \"(1 + x)*(1 + y)*(1 + x + y)/(x*y)" +
+           more +
+           "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"1\", y = \"2\" }\n"
+           "duration = \"12\"\n";
+  };
+  const Folder folder;
+  folder.write("kept.toml", lyness(""));
+  EXPECT_EQ(run_in(folder, {"conserve", "./kept.toml"}).status, 0);
+  for (const char* more : {" + x/10^11", " + 10^20 + x"}) {
+    folder.write("other.toml", lyness(more));
+    const Outcome outcome = run_in(folder, {"conserve", "./other.toml"});
+    EXPECT_EQ(outcome.status, 1) << more;
+    EXPECT_TRUE(has(outcome.out, "G is not kept")) << outcome.out;
+  }
+}
+
 // Within the steps 1 - cos(y) loses its digits, and (1 - cos(y))/y^2 tends to 1/2.
 TEST(MapCommands, WhatCancelsInAStepIsSeen) {
   const Folder folder;

@@ -36,6 +36,7 @@ std::string end_of(const Row& row) {
     case RowEnd::drifted:
       return "drifted";
     case RowEnd::changes:
+    case RowEnd::changes_in_step:
       return "not_kept";
   }
   return {};

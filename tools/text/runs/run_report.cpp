@@ -42,6 +42,8 @@ std::string status_text(const Row& row) {
       return fmt::format("drift above {:g}", row.bound);
     case RowEnd::changes:
       return fmt::format("{} is not kept: its rate is not zero", row.reason);
+    case RowEnd::changes_in_step:
+      return fmt::format("{} is not kept: it has another value at the next point", row.reason);
   }
   return to_string(row.status);
 }
