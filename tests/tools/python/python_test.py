@@ -342,9 +342,17 @@ class Runs(unittest.TestCase):
         self.assertEqual(top.ensemble([start], duration=1).warnings, [])
         with self.assertRaisesRegex(casimir.RequestError, "member 1: the assumption r != 0"):
             top.ensemble([start], parameters={"r": [0]}, duration=1)
+        with self.assertRaisesRegex(casimir.RequestError, "there are two columns 'g1'"):
+            top.ensemble([[1, 2]], variables=["g1", "g1"], duration=1)
         flow = top.system(method="taylor")
         for row, end in zip(many, ends.y):
             np.testing.assert_allclose(end, flow.flow(row, 5, 1e-12), atol=1e-10)
+
+    def test_a_flow_asks_for_the_assumptions(self):
+        top = casimir.load("kovalevskaya").system(keep=["r"])
+        self.assertEqual(top.flow(top.initial, 1, parameters=[2]).shape, (6,))
+        with self.assertRaisesRegex(casimir.RequestError, "the assumption r != 0"):
+            top.flow(top.initial, 1, parameters=[0])
 
     def test_an_ensemble_over_a_parameter(self):
         top = casimir.load("kovalevskaya")

@@ -12,6 +12,7 @@
 #include "tools/analysis/run/doubted_invariants.hpp"
 #include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
+#include "tools/analysis/run/point_check.hpp"
 #include "tools/analysis/solve.hpp"
 #include "tools/python/core/bindings.hpp"
 #include "tools/python/core/case.hpp"
@@ -161,9 +162,11 @@ class System {
     run_ = std::make_unique<PreparedScene>(prepare(model, model.scene(scene), how));
     method_ = &method_named(method);
     compiled_ = std::make_unique<CompiledModule>(compile_for(*run_, *method_));
+    point_check_ = std::make_unique<PointCheck>(model, model.scene(scene), run_->specialisation);
   }
   ~System() {
     const ExactAlgebra guard;
+    point_check_.reset();
     compiled_.reset();
     run_.reset();
   }
@@ -201,6 +204,8 @@ class System {
     const std::vector<double> start(x.data(), x.data() + x.size());
     const std::vector<double> values =
         p ? std::vector<double>(p->data(), p->data() + p->size()) : run_->parameters;
+    if (const auto fault = (*point_check_)(start, values); fault && !fault->constraint)
+      throw RequestError(fault->text);
     Settings settings;
     settings.rtol = settings.atol = tolerance.value_or(1e-12);
     settings.duration = duration;
@@ -242,6 +247,7 @@ class System {
   std::unique_ptr<PreparedScene> run_;
   const Method* method_ = nullptr;
   std::unique_ptr<CompiledModule> compiled_;
+  std::unique_ptr<PointCheck> point_check_;  ///< what states and parameters have to fulfil
 };
 
 /// What a function in C is given beside its numbers: a compiled right-hand side.
@@ -303,7 +309,10 @@ std::vector<std::size_t> places_of(const Names& names, const Names& known, const
     if (found == known.end())
       throw RequestError("'" + printable(name) + "' is not " + what + ": " +
                          suggest_or_list(name, known));
-    places.push_back(static_cast<std::size_t>(found - known.begin()));
+    const auto place = static_cast<std::size_t>(found - known.begin());
+    if (std::ranges::find(places, place) != places.end())
+      throw RequestError("there are two columns '" + printable(name) + "'");
+    places.push_back(place);
   }
   return places;
 }
