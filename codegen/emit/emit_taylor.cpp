@@ -249,8 +249,14 @@ class TaylorWriter {
                  "[degree] < 0 ? -1 : 0;\n";
         return assign(y, side + " * " + a + "[degree]");
       }
-      case SeriesRule::constant:
-        return assign(y, "degree > 0 || " + a + "[0] == 0 ? 0 : " + a + "[0] > 0 ? 1 : -1");
+      case SeriesRule::constant: {  // what has no value has no sign either
+        const auto number = [&](const std::string& text) {
+          return "static_cast<" + real() + ">(" + text + ")";
+        };
+        return assign(y, "degree > 0 ? " + number("0") + " : " + a + "[0] > 0 ? " + number("1") +
+                             " : " + a + "[0] < 0 ? " + number("-1") + " : " +
+                             number("0 * " + a + "[0]"));
+      }
       case SeriesRule::angle: {
         const std::string b = series(c.b);
         const std::string squares = new_array(y + "_squares");

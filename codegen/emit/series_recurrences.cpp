@@ -278,7 +278,8 @@ class SeriesWriter {
 
   void write_sign(std::size_t i) {
     const std::string& a = at(code(i).a);
-    assign_value(value_[i], side(a, lanes_ ? "V{}" : "0."));
+    // What has no value has no sign either.
+    assign_value(value_[i], side(a, (lanes_ ? "V{} * " : "0. * ") + a));
     if (varies_[i]) assign_next(value_[i], lanes_ ? "V{}" : "0.");
   }
 

@@ -71,7 +71,7 @@ class StatementWriter {
       for (const int operand : {code(i).a, code(i).b}) {
         if (operand < 0) continue;
         const auto o = static_cast<std::size_t>(operand);
-        ++uses_[o];
+        uses_[o] += code(i).op == Op::sign ? 2 : 1;  // it is written twice
         outputs_of_[o].insert(outputs_of_[i].begin(), outputs_of_[i].end());
       }
     }
@@ -114,6 +114,8 @@ class StatementWriter {
     const auto b = static_cast<std::size_t>(c.b);
     if (c.op == Op::pi) {
       out += style_.call_prefix + "acos" + style_.call_suffix + "(" + converted("-1") + ")";
+    } else if (c.op == Op::sign) {
+      append_sign(c, context, out);
     } else if (is_function(c.op)) {
       append_call(c, out);
     } else if (c.op == Op::neg) {
@@ -143,6 +145,15 @@ class StatementWriter {
       append_argument(c.b, out);
     }
     out += ')';
+  }
+
+  /// What has no value has no sign either, and copysign would take one from the bits of a NaN.
+  void append_sign(const Instruction& c, Binding context, std::string& out) {
+    if (context > kSum) out += '(';
+    append_call(c, out);
+    out += " + " + converted("0") + " * ";
+    append(static_cast<std::size_t>(c.a), kUnary, out);
+    if (context > kSum) out += ')';
   }
 
   /// A whole number alone would choose the function for int, or none.

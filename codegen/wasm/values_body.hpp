@@ -46,10 +46,12 @@ void add_operation(Body& body, Op op, const Imports& imports, const First& first
     case Op::abs:
       body.add(Code::f64_abs);
       break;
-    case Op::sign:  // (a > 0) - (a < 0)
+    case Op::sign:  // (a > 0) - (a < 0) + 0 a
       body.number(0).add(Code::f64_greater);
       first();
       body.number(0).add(Code::f64_less).add(Code::i32_sub).add(Code::f64_from_i32);
+      first();  // 0 a, which is no number where a is none
+      body.number(0).add(Code::f64_mul).add(Code::f64_add);
       break;
     case Op::pow:
     case Op::atan2:

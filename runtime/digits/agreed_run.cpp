@@ -1,12 +1,15 @@
 #include "runtime/digits/agreed_run.hpp"
 
+#include <cln/exception.h>
 #include <cln/integer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "runtime/digits/cancellation.hpp"
+#include "runtime/program/undefined_sign.hpp"
 #include "runtime/program/zero_states.hpp"
 
 namespace casimir {
@@ -96,6 +99,10 @@ class Search {
     }
     // No run was made with the digits that these would take: that two agree says nothing.
     if (cancels) best_.digits = 0;
+    if (best_.run.status == Status::ok && rests_where_signs_have_no_value()) {
+      best_.run.status = Status::non_finite;
+      best_.run.reason = kSignOfZero;
+    }
     return std::move(best_);
   }
 
@@ -103,6 +110,25 @@ class Search {
   int cancelled_at(std::vector<cln::cl_R> state, const cln::cl_R& time) const {
     state.push_back(time);
     return cancelled_digits(rhs_, state, problem_.start(wanted_).back(), wanted_ + kMoreDigits);
+  }
+
+  bool rests_where_signs_have_no_value() const {
+    const std::vector<cln::cl_R> start = problem_.start(wanted_);
+    const auto inputs = [&](const auto& state, const cln::cl_R& time) {
+      std::vector<double> result;
+      for (std::size_t i = 0; i + 1 < start.size(); ++i)
+        result.push_back(
+            cln::double_approx(i < best_.run.state.size() ? cln::cl_R(state[i]) : start[i]));
+      result.push_back(cln::double_approx(time));
+      return result;
+    };
+    try {
+      return takes_sign_of_zero(rhs_, inputs(start, 0), inputs(best_.run.state, best_.run.time));
+    } catch (const cln::runtime_exception&) {
+      return false;  // a number beyond all doubles is not 0
+    } catch (const std::domain_error&) {
+      return false;
+    }
   }
 
   /// Two runs that lose all their digits in the same difference agree as well.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <type_traits>
 
 #include "runtime/program.hpp"
 #include "runtime/program/number.hpp"
@@ -47,6 +48,8 @@ Number applied(Op op, const Number& a, const Number& b, const Arithmetic<Number>
     case Op::abs:
       return arithmetic.sign(a) < 0 ? -a : a;
     case Op::sign:
+      if constexpr (std::is_floating_point_v<Number>)
+        if (a != a) return a;  // what has no value has no sign either
       return arithmetic.from(cln::cl_RA(arithmetic.sign(a)));
     default:
       assert(false);

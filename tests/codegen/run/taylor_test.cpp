@@ -98,6 +98,20 @@ TEST(Taylor, EveryOperationHasItsRecurrence) {
   }
 }
 
+/// A sign that was taken of the bits of a NaN would be a number that nobody sees through.
+TEST(Taylor, OfWhatHasNoValueThereIsNoSign) {
+  const Specialisation s = specialised(equations({{"x", "1"}, {"y", "sign(log(x))"}}));
+  for (const auto& [form, module] : forms(s)) {
+    for (const auto& [x, sign] : {std::pair{0.5, -1.}, {2., 1.}, {-0.5, std::nan("")}}) {
+      const std::vector<double> state = {x, 0};
+      std::vector<double> rates(2);
+      module.functions().rhs(0, state.data(), nullptr, rates.data());
+      EXPECT_TRUE(std::isnan(sign) ? std::isnan(rates[1]) : rates[1] == sign) << form << ' ' << x;
+    }
+    EXPECT_NE(run_taylor(module, settings_for(0.25), {-0.5, 0}).status, Status::ok) << form;
+  }
+}
+
 /// A rate that is another state as it is must not see that state's next coefficient, in whatever
 /// order the states stand.
 TEST(Taylor, RatesThatAreBareStates) {

@@ -132,6 +132,28 @@ TEST(AutoMethod, AShortRunWithLargeNumbersIsNotByTheClosedForm) {
   EXPECT_NEAR(std::stod(run.at("state").at("p").get<std::string>()) / -1e7, std::sin(1.), 2e-12);
 }
 
+TEST(AutoMethod, WhereTheSignOfZeroIsTakenAllAlongThereIsNoMotion) {
+  const Folder folder;
+  const auto scene = [&](const char* rate) {
+    folder.write("a.toml",
+                 std::string("[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"") +
+                     rate +
+                     "\"\ny = \"sign(x)\"\n[[scene]]\nname = \"default\"\n"
+                     "initial = { x = \"0\", y = \"0\" }\nduration = \"1\"\n");
+  };
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{}, {"--method", "dop853"}, {"--digits", "20"}}) {
+    std::vector<std::string> command = {"integrate", "./a.toml"};
+    command.insert(command.end(), how.begin(), how.end());
+    scene("0");
+    const Outcome rests = run_in(folder, command);
+    EXPECT_EQ(rests.status, 5);
+    EXPECT_NE(rests.err.find("the sign of 0"), std::string::npos) << rests.err;
+    scene("1");  // it leaves, and only begins there
+    EXPECT_EQ(run_in(folder, command).status, 0);
+  }
+}
+
 TEST(AutoMethod, WithoutACompilerItIsTaylorSeriesAgain) {
   const Folder cache;
   const auto run =

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "codegen/optimise/scale_exponentials.hpp"
+#include "runtime/program/undefined_sign.hpp"
 #include "runtime/step/stiffness.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
@@ -83,6 +84,7 @@ class Judge {
       prepare(method_named(options_.method), settings_for(options_.run, run_));
       run_it();
     }
+    refuse_undefined();
     judge();
     return std::move(result_);
   }
@@ -232,6 +234,26 @@ class Judge {
 
   /// Of code that is compiled in the middle of a run.
   double seconds_to_compile() const { return result_.later ? result_.later->seconds : 0; }
+
+  /// A motion that stays where a sign is taken of 0 is none.
+  void refuse_undefined() {
+    Trajectory& trajectory = result_.trajectory;
+    if (trajectory.status != Status::ok) return;
+    const auto inputs = [&](double t, std::vector<double> x) {
+      x.insert(x.end(), run_.parameters.begin(), run_.parameters.end());
+      x.push_back(t);
+      return x;
+    };
+    try {
+      if (!takes_sign_of_zero(run_.specialisation.rhs, inputs(result_.settings.begin, run_.initial),
+                              inputs(trajectory.time, trajectory.state)))
+        return;
+    } catch (const std::domain_error&) {
+      return;  // an end where there is no value for another reason was reached by the run
+    }
+    trajectory.status = Status::non_finite;
+    trajectory.reason = kSignOfZero;
+  }
 
   void judge() {
     std::vector<std::string>& doubts = result_.doubts;
