@@ -9,9 +9,12 @@ namespace {
 
 TEST(Package, DebianPackagesAreCleanAndRun) {
   const Folder folder;
+  // Lintian does not know what is quickest.
+  const std::string compression = wants_every_case() ? "gzip" : "zstd";
   const Outcome made = shell(folder, "'" CASIMIR_CPACK "' --config '" CASIMIR_BUILD_DIR
                                      "/CPackConfig.cmake' -G DEB -B packages "
-                                     "-D CPACK_DEBIAN_COMPRESSION_TYPE=zstd\n");
+                                     "-D CPACK_DEBIAN_COMPRESSION_TYPE=" +
+                                         compression + "\n");
   ASSERT_EQ(made.status, 0) << made.out << made.err;
   if (wants_every_case()) {  // it takes longer than all else here
     const Outcome checked = shell(folder, "lintian --allow-root --fail-on error packages/*.deb\n");
