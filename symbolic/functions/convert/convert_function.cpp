@@ -66,6 +66,11 @@ GeneratorTools Converter::elliptic_tools() {
     table_.add({Kind::function, value, base, tag, std::move(derivatives),
                 1 + table_.expression_size(base)});
   };
+  tools.take_as_positive = [this](const Polynomial& p) {
+    const auto [top, bottom] = table_.fraction(p);
+    signs_.imply_radicand(factors_of(table_, table_.checked_product(table_.numerator(top), bottom)),
+                          true);
+  };
   tools.add_root = [this](const ex& value, const Polynomial& radicand,
                           std::vector<Polynomial> derivatives) {
     table_.add({Kind::root, value, radicand, 2, std::move(derivatives),

@@ -172,6 +172,13 @@ Polynomial elliptic_polynomial(const GeneratorTools& tools, const GiNaC::functio
     throw TooLarge(
         "elliptic functions are known for real numbers alone, and this has complex ones");
   const std::string name = f.get_name();
+  const bool is_carlson = name == "R_F" || name == "R_D" || name == "R_J";
+  for (std::size_t i = 0; is_carlson && i < f.nops(); ++i)
+    tools.take_as_positive(tools.convert(f.op(i)));
+  if (!is_carlson) {
+    const Polynomial modulus = tools.convert(f.op(1));
+    tools.take_as_positive(tools.ring.constant(1) - tools.product(modulus, modulus));
+  }
   if (name == "R_F") return first_kind(tools, {f.op(0), f.op(1), f.op(2)});
   if (name == "R_D") return second_kind(tools, {f.op(0), f.op(1), f.op(2)});
   if (name == "R_J") return third_kind(tools, f);

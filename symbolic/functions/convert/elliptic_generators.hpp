@@ -34,6 +34,8 @@ struct GeneratorTools {
   std::function<void(const GiNaC::ex& value, const Polynomial& base, unsigned long tag,
                      std::vector<Polynomial> derivatives)>
       add{};
+  /// Takes it that this is positive, since the function has values there alone.
+  std::function<void(const Polynomial&)> take_as_positive{};
   /// Adds the positive root of a polynomial.
   std::function<void(const GiNaC::ex& value, const Polynomial& radicand,
                      std::vector<Polynomial> derivatives)>
@@ -58,6 +60,8 @@ enum EllipticTag : unsigned long {
 /// those of sines and roots. The derivatives of a and d by the modulus are generators of
 /// which nothing is known: what holds for them as unknowns holds. They have no values, so that no
 /// rank is taken of them at a point, and no derivatives.
+///
+/// Where they have values, 1 - k^2 and the arguments of Carlson's integrals are positive.
 ///
 /// Carlson: R = R_F(x, y, z) and one of the three R_D, D_z, are generators; the other two follow
 /// from D_x + D_y + D_z = 3/sqrt(xyz) and x D_x + y D_y + z D_z = 3R (DLMF 19.21.9, homogeneity).

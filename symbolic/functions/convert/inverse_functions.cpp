@@ -87,7 +87,10 @@ Polynomial InverseFunctions::arc_sine_or_cosine(const GiNaC::function& f, const 
 /// D atan2(y, x) = (x Dy - y Dx)/(x^2 + y^2); the key is kept by its value.
 Polynomial InverseFunctions::arc_tangent_of_two(const GiNaC::function& f, const Polynomial& v) {
   const Polynomial x = convert_(f.op(1));
-  const Polynomial scale = inverse_of(table_, x * x + v * v);
+  const Polynomial squares = x * x + v * v, scale = inverse_of(table_, squares);
+  const auto [top, bottom] = table_.fraction(squares);  // there is no angle at x = y = 0
+  signs_.imply_radicand(factors_of(table_, table_.checked_product(table_.numerator(top), bottom)),
+                        true);
   for (std::size_t i = 0; i < table_.generators().size(); ++i) {
     if (table_.generators()[i].value.is_equal(f)) return table_.variable(i);
   }

@@ -173,6 +173,14 @@ TEST(Domains, OfLogarithmsAreWithoutTheZerosOfSquares) {
             (Conditions{"x > 0", "y > 0"}));
 }
 
+TEST(Domains, OfAnglesAndEllipticFunctionsAreSaid) {
+  using Conditions = std::set<std::string>;
+  EXPECT_EQ(conditions_of_identity("atan2(x, y)", "atan2(x, y)"), Conditions{"x^2 + y^2 != 0"});
+  EXPECT_EQ(conditions_of_identity("R_F(x, y, 1)", "R_F(y, 1, x)"), (Conditions{"x > 0", "y > 0"}));
+  EXPECT_EQ(conditions_of_identity("sn(x, y)^2", "1 - cn(x, y)^2"),
+            (Conditions{"y + 1 > 0", "-y + 1 > 0"}));
+}
+
 TEST(Domains, WithoutInsideSpeakForThePartOfTheirPoint) {
   const std::string thin = "domain = [\"(q2-1)*p2 = 0\"]\n[integrals]\nF = \"p2^2\"\n";
   for (const char* kind : {"independence", "liouville"}) {
