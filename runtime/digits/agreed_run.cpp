@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -112,13 +113,18 @@ class Search {
     return cancelled_digits(rhs_, state, problem_.start(wanted_).back(), wanted_ + kMoreDigits);
   }
 
+  /// By doubles: what is 0 among them is 0.
   bool rests_where_signs_have_no_value() const {
     const std::vector<cln::cl_R> start = problem_.start(wanted_);
+    const auto approximate = [](const cln::cl_R& x) {
+      const double result = cln::double_approx(x);
+      if (result != 0 || cln::zerop(x)) return result;
+      return std::copysign(std::numeric_limits<double>::min(), cln::minusp(x) ? -1. : 1.);
+    };
     const auto inputs = [&](const auto& state, const cln::cl_R& time) {
       std::vector<double> result;
       for (std::size_t i = 0; i + 1 < start.size(); ++i)
-        result.push_back(
-            cln::double_approx(i < best_.run.state.size() ? cln::cl_R(state[i]) : start[i]));
+        result.push_back(approximate(i < best_.run.state.size() ? cln::cl_R(state[i]) : start[i]));
       result.push_back(cln::double_approx(time));
       return result;
     };

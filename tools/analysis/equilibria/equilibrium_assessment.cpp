@@ -48,7 +48,7 @@ void Assessment::operator()(const Place& place, Equilibrium& found) const {
   const Matrix matrix = linearised(own, tangent);
   LinearStructure known = structure(own, directions, found, tangent);
   if (!tangent) known.forms = [&] { return forms_.at(own.x, matrix); };
-  const auto stability = linear_stability(matrix, error_of(matrix, nearby, tangent), known);
+  const auto stability = linear_stability(matrix, error_of(own, matrix, nearby, tangent), known);
   if (!stability) return;
   found.eigenvalues = stability->eigenvalues;
   found.stability = stability->stability;
@@ -73,15 +73,19 @@ std::vector<Place> Assessment::indistinguishable(const Place& place, const Direc
   return result;
 }
 
-Matrix Assessment::error_of(const Matrix& matrix, const std::vector<Place>& nearby,
+Matrix Assessment::error_of(const Place& place, const Matrix& matrix,
+                            const std::vector<Place>& nearby,
                             const std::optional<Matrix>& tangent) const {
   constexpr double kOfEntry = 0x1p-49, kOfChange = 2;
-  Matrix changes = Matrix::Zero(matrix.rows(), matrix.cols());
+  Matrix changes = Matrix::Zero(matrix.rows(), matrix.cols()), sizes = matrix.cwiseAbs();
+  if (tangent)  // what cancels along it leaves the rounding of what was there
+    sizes = tangent->transpose().cwiseAbs() * equations_.linearised(place.x, place.v).cwiseAbs() *
+            tangent->cwiseAbs();
   for (const Place& other : nearby) {
     const Matrix there = linearised(other, tangent);
     if (there.allFinite()) changes = changes.cwiseMax((there - matrix).cwiseAbs());
   }
-  return kOfEntry * matrix.cwiseAbs() + kOfChange * changes;
+  return kOfEntry * sizes + kOfChange * changes;
 }
 
 Matrix Assessment::linearised(const Place& place, const std::optional<Matrix>& tangent) const {

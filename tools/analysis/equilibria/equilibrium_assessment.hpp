@@ -34,7 +34,8 @@ class Assessment {
   /// Of each entry: that of its own rounding, and what it changes by to the points nearby.
   /// \param tangent  to the constraints, where there are any: the linearised equations are those
   ///                 along it
-  Eigen::MatrixXd error_of(const Eigen::MatrixXd& matrix, const std::vector<Place>& nearby,
+  Eigen::MatrixXd error_of(const Place& place, const Eigen::MatrixXd& matrix,
+                           const std::vector<Place>& nearby,
                            const std::optional<Eigen::MatrixXd>& tangent) const;
   /// The linearised equations, along the constraints where there are any.
   Eigen::MatrixXd linearised(const Place& place,
