@@ -26,9 +26,11 @@ Implied SignTable::implied_by_values() const {
       if (radicand.strict == strict) add_conditions(radicand, result);
   }
   // x >= 0 and x != 0 are one condition.
-  for (auto& [p, strict] : result.positive)
-    strict = std::erase_if(result.nonzero, [&](const auto& f) { return f == p || f == -p; }) > 0 ||
-             strict;
+  for (auto& condition : result.positive) {
+    const Polynomial& p = condition.first;
+    const auto is_p = [&](const Polynomial& f) { return f == p || f == -p; };
+    if (std::erase_if(result.nonzero, is_p) > 0) condition.second = true;
+  }
   return result;
 }
 

@@ -127,9 +127,8 @@ void Prover::say_conditions(Proof& proof) {
   }
   say_where_values_are(proof);
   // The ring meets them in an order that differs from one process to the next.
-  std::ranges::sort(proof.nonzero);
-  const auto repeated = std::ranges::unique(proof.nonzero);
-  proof.nonzero.erase(repeated.begin(), repeated.end());
+  std::sort(proof.nonzero.begin(), proof.nonzero.end());
+  proof.nonzero.erase(std::unique(proof.nonzero.begin(), proof.nonzero.end()), proof.nonzero.end());
 }
 
 void Prover::say_where_values_are(Proof& proof) const {
