@@ -67,9 +67,10 @@ GeneratorTools Converter::elliptic_tools() {
                 1 + table_.expression_size(base)});
   };
   tools.take_as_positive = [this](const Polynomial& p) {
-    const auto [top, bottom] = table_.fraction(p);
-    signs_.imply_radicand(factors_of(table_, table_.checked_product(table_.numerator(top), bottom)),
-                          true);
+    const auto [unreduced, bottom] = table_.fraction(p);
+    const Polynomial top = table_.numerator(unreduced);
+    if (top.is_zero()) return;  // it has a value nowhere, which is seen where it is derived
+    signs_.imply_radicand(factors_of(table_, table_.checked_product(top, bottom)), true);
   };
   tools.add_root = [this](const ex& value, const Polynomial& radicand,
                           std::vector<Polynomial> derivatives) {

@@ -88,9 +88,10 @@ Polynomial InverseFunctions::arc_sine_or_cosine(const GiNaC::function& f, const 
 Polynomial InverseFunctions::arc_tangent_of_two(const GiNaC::function& f, const Polynomial& v) {
   const Polynomial x = convert_(f.op(1));
   const Polynomial squares = x * x + v * v, scale = inverse_of(table_, squares);
-  const auto [top, bottom] = table_.fraction(squares);  // there is no angle at x = y = 0
-  signs_.imply_radicand(factors_of(table_, table_.checked_product(table_.numerator(top), bottom)),
-                        true);
+  const auto [unreduced, bottom] = table_.fraction(squares);
+  const Polynomial top = table_.numerator(unreduced);
+  if (!top.is_zero())  // there is no angle at x = y = 0
+    signs_.imply_radicand(factors_of(table_, table_.checked_product(top, bottom)), true);
   for (std::size_t i = 0; i < table_.generators().size(); ++i) {
     if (table_.generators()[i].value.is_equal(f)) return table_.variable(i);
   }
