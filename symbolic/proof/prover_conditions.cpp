@@ -126,9 +126,6 @@ void Prover::say_conditions(Proof& proof) {
       proof.nonzero.push_back(ring_.text(denominators[k]));
   }
   say_where_values_are(proof);
-  // The ring meets them in an order that differs from one process to the next.
-  std::sort(proof.nonzero.begin(), proof.nonzero.end());
-  proof.nonzero.erase(std::unique(proof.nonzero.begin(), proof.nonzero.end()), proof.nonzero.end());
 }
 
 void Prover::say_where_values_are(Proof& proof) const {
@@ -140,6 +137,9 @@ void Prover::say_where_values_are(Proof& proof) const {
     if (strict) proof.not_zero.push_back(proof.positive.back());
   }
   for (const Polynomial& p : implied.nonzero) proof.nonzero.push_back(ring_.text(p));
+  // The ring meets them in an order that differs from one process to the next.
+  std::sort(proof.nonzero.begin(), proof.nonzero.end());
+  proof.nonzero.erase(std::unique(proof.nonzero.begin(), proof.nonzero.end()), proof.nonzero.end());
 }
 
 }  // namespace casimir

@@ -6,6 +6,7 @@
 
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
+#include "runtime/program/undefined_sign.hpp"
 #include "tests/bundled_cases.hpp"
 #include "tests/codegen/run/ensemble_forms.hpp"
 #include "tests/codegen/run/taylor_forms.hpp"
@@ -110,6 +111,18 @@ TEST(Taylor, OfWhatHasNoValueThereIsNoSign) {
     }
     EXPECT_NE(run_taylor(module, settings_for(0.25), {-0.5, 0}).status, Status::ok) << form;
   }
+}
+
+/// A parabola that comes back to the jump leaves it in between.
+TEST(Taylor, TheSignOfZeroIsTakenAllAlongWhereTheMotionStays) {
+  const Specialisation s = specialised(equations({{"q", "p"}, {"p", "-sign(q)"}}));
+  const auto at = [&](double p, double t) {
+    std::vector<double> inputs = {0, p};
+    inputs.resize(s.rhs.inputs.size(), t);
+    return inputs;
+  };
+  EXPECT_TRUE(takes_sign_of_zero(s.rhs, at(0, 0), at(0, 2)));
+  EXPECT_FALSE(takes_sign_of_zero(s.rhs, at(1, 0), at(-1, 2)));
 }
 
 /// A rate that is another state as it is must not see that state's next coefficient, in whatever

@@ -39,13 +39,19 @@ std::vector<GiNaC::ex> linear_integrals(const Model& model, std::vector<std::str
   return result;
 }
 
-/// The constraints that say more than the Casimir functions: without a bracket all of them.
-Functions own_constraints(const Model& model) {
+/// The constraints that say more than the Casimir functions: without a bracket all of them. Those
+/// that are Casimir functions themselves, and not but for a number among those of the file, are
+/// added to them.
+Functions own_constraints(Model& model) {
   Functions result;
   for (const NamedExpression& c : model.constraints) {
+    const auto is_known = [&](const NamedExpression& f) {
+      return GiNaC::is_a<GiNaC::numeric>((f.value - c.value).expand());
+    };
+    if (std::ranges::any_of(model.casimirs, is_known)) continue;
     const bool casimir =
         model.poisson && prove_claim(model, ClaimKind::casimir, c).verdict == Verdict::proved;
-    if (!casimir) result.push_back(c);
+    (casimir ? model.casimirs : result).push_back(c);
   }
   return result;
 }
@@ -95,9 +101,10 @@ EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
   SpecialiseOptions options;
   options.observe.emplace();
   options.gradients = true;
-  const Functions constraints = own_constraints(model);
-  const Model extended =
-      with_velocities(model, own, integrals, constraints, options.keep_parameters);
+  Model with_casimirs = model;
+  const Functions constraints = own_constraints(with_casimirs);
+  const Model extended = with_velocities(std::move(with_casimirs), own, integrals, constraints,
+                                         options.keep_parameters);
   const Specialisation spec = specialise(extended, own, options);
   if (spec.uses_time) throw ModelError("equations that depend on the time have no equilibria");
   std::map<std::string, std::string> shown;
