@@ -202,8 +202,8 @@ struct Model {
 /// before anything else is read.
 using ParameterValues = std::vector<std::pair<Text, Text>>;
 
-/// Finds the case file that a map's `to` names; empty if there is none of that name. Without such a
-/// function the folder of the case file is searched.
+/// Finds the case file that a map's `to` names where there is none of that name beside the case
+/// file itself; empty if there is none.
 using FindCase = std::function<std::optional<CaseFile>(const std::string& name)>;
 
 /// Reads every expression of the case file and builds the bracket and the equations of motion.

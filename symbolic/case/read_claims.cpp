@@ -136,9 +136,11 @@ class ClaimReader {
   PhaseSpaceText target_of(const MapText& text) const {
     if (text.to_table) return *text.to_table;
     if (!find_lie_algebra(text.to->value)) {
-      if (const auto found = find_case(text.to->value)) {
-        return found->phase_space;
-      }
+      if (const auto found = find_case(text.to->value)) return found->phase_space;
+      throw text.to->error(
+          fmt::format("'{}' is neither a Lie algebra nor a case", printable(text.to->value)), 0,
+          fmt::format("{} (a case would be {}.toml beside this file, or a bundled one)",
+                      lie_algebra_hint(text.to->value), printable(text.to->value)));
     }
     PhaseSpaceText target;
     target.where = text.to->where;
@@ -147,13 +149,13 @@ class ClaimReader {
     return target;
   }
 
+  /// The case of that name: the file beside this one comes first, as the nearest.
   std::optional<CaseFile> find_case(const std::string& name) const {
-    if (find_case_) return find_case_(name);
     if (name.find('/') != std::string::npos) return std::nullopt;
     const auto path = std::filesystem::path(file_.file).parent_path() / (name + ".toml");
     std::error_code problem;
-    if (!std::filesystem::is_regular_file(path, problem)) return std::nullopt;
-    return read_case(path, file_.limits);
+    if (std::filesystem::is_regular_file(path, problem)) return read_case(path, file_.limits);
+    return find_case_ ? find_case_(name) : std::nullopt;
   }
 
   void read_map(const MapText& text) {

@@ -253,6 +253,7 @@ Claim whole_poisson_claim(const MapModel& map) {
           }
         }
         prover.decide(proof, residuals, {});
+        prover.say_where_differentiable(proof, map.next);
       }};
   claim.expressions = domain_of(map, {});
   append(claim.expressions, parts);

@@ -54,6 +54,32 @@ std::vector<Polynomial> FunctionPieces::radicand_factors(const Polynomial& p, bo
   return result;
 }
 
+bool FunctionPieces::vanishes_with(const Polynomial& p, const Polynomial& f) const {
+  Polynomial rest = table_.numerator(p);
+  for (const std::size_t g : table_.generators_in({rest})) {
+    const Generator& own = table_.generators()[g];
+    const std::size_t place = table_.place(g);
+    if ((own.kind != Kind::root && own.kind != Kind::absolute) || !rest.uses(place)) continue;
+    const std::vector<Polynomial>& factors = factors_of_radicand(g);
+    if (std::find(factors.begin(), factors.end(), f) == factors.end()) continue;
+    rest = rest.coefficients(place)[0];
+  }
+  Polynomial quotient(table_.ring());
+  return rest.is_zero() || rest.divide(f, &quotient);
+}
+
+std::vector<Polynomial> FunctionPieces::zeros_with_roots(const std::vector<Polynomial>& list,
+                                                         std::size_t least) const {
+  std::vector<Polynomial> result;
+  for (const Polynomial& rough : list)
+    for (const Polynomial& f : radicand_factors(rough)) {
+      const auto count =
+          std::ranges::count_if(list, [&](const Polynomial& own) { return vanishes_with(own, f); });
+      if (static_cast<std::size_t>(count) >= least) result.push_back(f);
+    }
+  return result;
+}
+
 std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p, bool cuts) const {
   std::vector<Polynomial> result;
   const std::vector<Polynomial> rough = radicand_factors(p);
@@ -64,6 +90,7 @@ std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p, bool c
   // What is divided by, itself or under a root that is.
   const auto divided_by = [&](const Polynomial& bottom, bool inverse) {
     for (const auto& [f, exponent] : bottom.factors()) {
+      if (signs_.is_assumed_nonzero(f)) continue;  // as in 1/exp(|x|)
       std::vector<Polynomial> parts = radicand_factors(f);
       parts.push_back(f);
       for (const Polynomial& part : parts)
@@ -87,6 +114,23 @@ std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p, bool c
         table_.numerator(y).is_zero() ? table_.numerator(x) : table_.numerator(y);
     for (const auto& [f, exponent] : cut.factors()) add(f);
   }
+  return result;
+}
+
+std::vector<Polynomial> FunctionPieces::split_jump_factors(const Polynomial& p) const {
+  std::vector<Polynomial> result, logarithms;
+  const auto add = [&](const std::vector<Polynomial>& list) {
+    for (const Polynomial& f : zeros_with_roots(list, 2))
+      if (std::find(result.begin(), result.end(), f) == result.end()) result.push_back(f);
+  };
+  for (const std::size_t g : table_.generators_in({p})) {
+    const Generator& generator = table_.generators()[g];
+    if (generator.kind != Kind::function) continue;
+    if (generator.order == kArcTangentOfTwo) add(generator.arguments);
+    if (generator.order == kLogarithm || generator.order == kLogOfAbsolute)
+      logarithms.push_back(generator.base);
+  }
+  add(logarithms);
   return result;
 }
 

@@ -26,6 +26,14 @@ class FunctionPieces {
   /// \param cuts  with those of atan2 and of arguments of atan that become infinite
   std::vector<Polynomial> jump_factors(const Polynomial& p, bool cuts = true) const;
 
+  /// Of quotients N/D within other functions: log(N/D) has become log(N) - log(D), of which both
+  /// are infinite where N/D jumps, and atan2(N/D, 3) is atan2(N, 3*D), the angle of the origin
+  /// there. That these have no value where the factor vanishes does not keep the motion from it.
+  std::vector<Polynomial> split_jump_factors(const Polynomial& p) const;
+
+  /// Whether `p` is zero wherever the irreducible `f` is, and with it the roots of its multiples.
+  bool vanishes_with(const Polynomial& p, const Polynomial& f) const;
+
   /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that
   /// vanishes, as y*|y| and x^(3/2) are.
   bool is_smooth_across(const Polynomial& p, const Polynomial& f) const;
@@ -46,6 +54,9 @@ class FunctionPieces {
   Pieces pieces(const std::vector<Polynomial>& functions) const;
 
  private:
+  /// Factors under roots in the list whose zeros are those of so many of its members at least.
+  std::vector<Polynomial> zeros_with_roots(const std::vector<Polynomial>& list,
+                                           std::size_t least) const;
   const std::vector<Polynomial>& factors_of_radicand(std::size_t g) const;
 
   const GeneratorTable& table_;

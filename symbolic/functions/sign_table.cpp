@@ -141,6 +141,17 @@ bool SignTable::is_listed_nonzero(const Polynomial& p) const {
                      [&](const Sign& s) { return s.strict && listed(s); });
 }
 
+bool SignTable::is_assumed_nonzero(const Polynomial& p) const {
+  const auto listed = [&](const auto& entry) {
+    return !entry.implied && (entry.of == p || entry.of == -p);
+  };
+  if (p.is_constant()) return !p.is_zero();
+  return std::any_of(nonzero_.begin(), nonzero_.end(), listed) ||
+         std::any_of(signs_.begin(), signs_.end(),
+                     [&](const Sign& s) { return s.strict && listed(s); }) ||
+         is_nonzero_by_form(p);
+}
+
 /// Whether an irreducible polynomial vanishes nowhere by its form.
 bool SignTable::is_nonzero_by_form(const Polynomial& p) const {
   if (table_.is_exponential(p)) return true;

@@ -62,6 +62,8 @@ class SignTable {
   int sign_of(const Polynomial& p) const;
   /// See FunctionRing, as for the next four.
   bool is_nowhere_zero(const Polynomial& p) const;
+  /// The same of an irreducible one, but not since a root or a logarithm has no value else.
+  bool is_assumed_nonzero(const Polynomial& p) const;
   bool is_assumed_positive(const Polynomial& p) const;
   std::vector<Polynomial> real_zeros(const Polynomial& p) const;
   Implied implied_by_values() const;

@@ -114,25 +114,21 @@ class Prover {
   /// left undecided for this reason.
   bool is_smooth_on(Proof& proof, const Level& level, const std::vector<NamedExpression>& list,
                     Smooth smooth = Smooth::everywhere);
-  /// What holds along motions on which none of these functions jumps, as "on motions that do not
-  /// cross x = 0"; empty where it is shown that none does. The derivative of sign(x)*y along a
-  /// motion may vanish wherever it has one, and still it is another constant behind x = 0; a
-  /// density that jumps where the motion passes is no density there.
+  /// Says of a proved claim about brackets of these functions that it holds where they are
+  /// differentiable: {q + |p|, p} is 1 but where p = 0, whatever the bracket multiplies sign(p) by.
+  void say_where_differentiable(Proof& proof, const std::vector<GiNaC::ex>& functions);
+  /// Where a function may jump on the way of a motion: what vanishes there; empty where it is shown
+  /// that it does not. The derivative of sign(x)*y along a motion may vanish wherever it has one,
+  /// and still it is another constant behind x = 0; a density that jumps where the motion passes is
+  /// no density there.
   ///
   /// Theorem: a function that is differentiable with rate zero along a motion but for isolated
   /// times, and continuous there, is constant on it. Continuous it is where no `jump_factors`
   /// vanishes; one that vanishes nowhere, whose sign the motion keeps (`keeps_sign`), or at whose
   /// zeros the motion has no value on either side, is passed by none.
-  /// \param every  of the flows of all Hamiltonians, as where the claim is about the bracket alone: what they keep the
-  ///               signs of are Casimir functions
-  std::vector<std::string> where_without_jumps(const std::vector<Polynomial>& functions,
-                                               bool every = false);
-  /// The same of functions of the case.
-  std::vector<std::string> where_without_jumps(const std::vector<NamedExpression>& functions,
-                                               bool every = false);
-
-  /// The jumps of the function that such conditions are about: what vanishes there.
-  /// \param cuts  with those of angles
+  /// \param cuts  with the jumps of angles
+  /// \param every  of the flows of all Hamiltonians, as where the claim is about the bracket alone:
+  ///               what they keep the signs of are Casimir functions
   std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts, bool every = false);
 
   /// Does the motion keep the sign of `u`, and u = 0? Theorem: u(t) = u(0)*exp(int c dt) where
@@ -210,6 +206,10 @@ class Prover {
   /// Whether the residual is a combination of the level's functions with continuous coefficients
   /// (where nothing that the level was solved by vanishes).
   bool in_ideal(const Residual& residual, const Level& level);
+  /// "c of f_i", the summand c*f_i of what has `of_numerator` times the numerator of f_i over
+  /// `divisor` as a summand.
+  std::string cofactor_text(const Polynomial& of_numerator, const Polynomial& divisor,
+                            const Level& level, std::size_t i);
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   void decide_on(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
   void decide_with_branches(Proof& proof, const std::vector<Residual>& residuals, const Level& own);

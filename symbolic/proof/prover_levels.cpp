@@ -331,6 +331,28 @@ void Prover::decide_invariance(Proof& proof, const std::vector<NamedExpression>&
   say_conditions(proof);
 }
 
+std::string Prover::cofactor_text(const Polynomial& of_numerator, const Polynomial& divisor,
+                                  const Level& level, std::size_t i) {
+  const auto [top, bottom] = ring_.lowest_terms(convert(level.functions[i]));
+  const auto text = [&](const Polynomial& p) { return shortened(ring_.text(p), p.terms()); };
+  Polynomial rest(ring_.ring()), above(ring_.ring()), below(ring_.ring());
+  std::string name = level.texts[i];
+  if (!top.divide(level.numerators[i], &rest)) {
+    name = text(level.numerators[i]);
+    rest = bottom;
+  }
+  const Polynomial common = Polynomial::gcd(of_numerator * bottom, rest * divisor);
+  (of_numerator * bottom).divide(common, &above);
+  (rest * divisor).divide(common, &below);
+  const auto grouped = [](const std::string& part, const char* marks) {
+    return part.find_first_of(marks) == std::string::npos ? part : "(" + part + ")";
+  };
+  if (!below.is_constant())
+    return fmt::format("{}/{} of {}", grouped(text(above), " "), grouped(text(below), " */-"),
+                       name);
+  return fmt::format("{} of {}", text(above.scaled(1 / below.term_list()[0].first)), name);
+}
+
 bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level& level,
                          Proof& proof) {
   auto [top, bottom] = ring_.lowest_terms(residual.value);
@@ -348,9 +370,8 @@ bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level
     for (std::size_t i = 0; i < cofactors.size(); ++i) {
       if (cofactors[i].is_zero()) continue;
       if (!proof.evidence.empty()) proof.evidence += "; ";
-      proof.evidence +=
-          fmt::format("{} has the cofactor {} of {}", residual.label,
-                      shortened(ring_.text(cofactors[i]), cofactors[i].terms()), level.texts[i]);
+      proof.evidence += fmt::format("{} has the cofactor {}", residual.label,
+                                    cofactor_text(cofactors[i], bottom, level, i));
     }
     rest = plain;
     return true;

@@ -23,39 +23,55 @@ std::vector<Polynomial> Prover::passed_jumps(const Polynomial& function, bool cu
   if (has_motion())
     for (const Polynomial& own : field())
       for (Polynomial& f : ring_.radicand_factors(own)) kinks.push_back(std::move(f));
+  const auto may_end_the_motion = [&](const Polynomial& f) {
+    return !every && std::find(kinks.begin(), kinks.end(), f) == kinks.end();
+  };
   const auto ends_the_motion = [&](const Polynomial& f) {
-    return !every && std::find(kinks.begin(), kinks.end(), f) == kinks.end() &&
-           vanishes_nowhere_on(f, {}, Divisors::of_motion);
+    return may_end_the_motion(f) && vanishes_nowhere_on(f, {}, Divisors::of_motion);
   };
   const auto is_kept = [&](const Polynomial& f) {
     if (!every) return keeps_sign(f, {});
     const std::vector<Polynomial> flow = flow_of(gradient(f));
     return std::all_of(flow.begin(), flow.end(), [&](const Polynomial& p) { return is_zero(p); });
   };
-  for (Polynomial& f : ring_.jump_factors(function, cuts))
-    if (!ring_.is_nowhere_zero(f) && !ends_the_motion(f) && !is_kept(f))
+  const auto divides = [&](const Polynomial& f) {
+    return may_end_the_motion(f) &&
+           std::ranges::any_of(explicit_divisors(Divisors::of_motion),
+                               [&](const Polynomial& d) { return d == f || d == -f; });
+  };
+  // The Hamiltonian is infinite there, and no motion comes to such a place but by a collision.
+  const auto has_pole = [&](const Polynomial& f) {
+    return has_motion() && model_.hamiltonian &&
+           ring_.vanishes_with(ring_.lowest_terms(ring_.convert(*model_.hamiltonian)).second, f);
+  };
+  const auto add = [&](Polynomial& f, bool split) {
+    // A motion passes where a function of the claim alone has no value.
+    const bool implied = ring_.is_nowhere_zero(f);
+    if (!split && implied && has_pole(f)) return;
+    const bool strictly = split || implied;
+    if (!ring_.is_assumed_nonzero(f) && !(strictly ? divides(f) : ends_the_motion(f)) &&
+        !is_kept(f) && std::find(passed.begin(), passed.end(), f) == passed.end())
       passed.push_back(std::move(f));
+  };
+  for (Polynomial& f : ring_.jump_factors(function, cuts)) add(f, false);
+  for (Polynomial& f : ring_.split_jump_factors(function)) add(f, true);
   return passed;
 }
 
-std::vector<std::string> Prover::where_without_jumps(const std::vector<Polynomial>& functions,
-                                                     bool every) {
-  std::vector<std::string> where;
-  for (const Polynomial& function : functions) {
-    for (const Polynomial& f : passed_jumps(function, true, every)) {
-      std::string condition = fmt::format("on motions that do not cross {} = 0", ring_.text(f));
-      if (std::find(where.begin(), where.end(), condition) == where.end())
-        where.push_back(std::move(condition));
+void Prover::say_where_differentiable(Proof& proof, const std::vector<GiNaC::ex>& functions) {
+  if (proof.verdict != Verdict::proved) return;
+  for (const GiNaC::ex& function : functions) {
+    const Polynomial& value = convert(function);
+    if (ring_.is_polynomial()) continue;
+    for (const Polynomial& radicand : ring_.radicand_factors(value, true)) {
+      if (!ring_.depends_on_first(radicand, dimension()) ||
+          ring_.is_smooth_across(value, radicand) || vanishes_nowhere_on(radicand, {}))
+        continue;
+      std::string condition = ring_.text(radicand) + " != 0";
+      if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
+        proof.where.push_back(std::move(condition));
     }
   }
-  return where;
-}
-
-std::vector<std::string> Prover::where_without_jumps(const std::vector<NamedExpression>& functions,
-                                                     bool every) {
-  std::vector<Polynomial> values;
-  for (const NamedExpression& f : functions) values.push_back(convert(f.value));
-  return where_without_jumps(values, every);
 }
 
 bool Prover::is_smooth_on(Proof& proof, const Level& level,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
+#include <optional>
 
 #include "symbolic/algebra/exact_constant.hpp"
 #include "symbolic/algebra/ideal.hpp"
@@ -70,16 +72,20 @@ bool ConstraintSet::has_variables(const Polynomial& p) const {
   return false;
 }
 
-bool ConstraintSet::contains(const RealPoint& point) const {
+/// Nothing where it is not found out.
+std::optional<bool> ConstraintSet::is_zero_at(const Polynomial& p, const RealPoint& point) const {
   GiNaC::exmap at;
   const auto& symbols = prover_.ring().symbols();
   for (std::size_t i = 0; i < symbols.size() && i < point.coordinates().size(); ++i)
     at[symbols[i]] = point.coordinates()[i];
+  const GiNaC::ex function = prover_.ring().expression(p);
+  const auto value = exact_constant(normal_form(substituted(function, at, prover_.model().limits)));
+  return value ? std::optional(value->zero) : std::nullopt;
+}
+
+bool ConstraintSet::contains(const RealPoint& point) const {
   return std::ranges::all_of(reduced_, [&](const Polynomial& constraint) {
-    const GiNaC::ex function = prover_.ring().expression(constraint);
-    const auto value =
-        exact_constant(normal_form(substituted(function, at, prover_.model().limits)));
-    return value && value->zero;
+    return is_zero_at(constraint, point).value_or(false);
   });
 }
 
@@ -126,6 +132,35 @@ bool ConstraintSet::have_ranks_everywhere(RealPoint& point, std::vector<RankedRo
   return has_irreducible_zeros(reduced_, is_rational(point)) ||
          std::ranges::all_of(
              all, [&](const RankedRows& one) { return has_rank_everywhere(point, one); });
+}
+
+bool ConstraintSet::is_regular(RealPoint& point) const {
+  if (point.rank(slopes_) == reduced_.size()) return true;
+  if (!are_polynomials({reduced_})) return false;
+  // Of three orthonormal vectors and a x b = c the last equations leave none of the others out;
+  // the first ones have left-handed vectors as well.
+  std::vector<std::size_t> order(reduced_.size());
+  std::iota(order.begin(), order.end(), 0);
+  for (int attempt = 0; attempt < 2; ++attempt, std::ranges::reverse(order)) {
+    PolynomialRows rows;
+    std::vector<Polynomial> own, others;
+    for (const std::size_t i : order) {
+      rows.push_back(slopes_[i]);
+      const bool adds = point.rank(rows) == rows.size();
+      if (!adds) rows.pop_back();
+      // Factors that are not zero there leave the set as it is around the point.
+      (adds ? own : others).push_back(without_powers(reduced_[i], [&](const Polynomial& f) {
+        return is_zero_at(f, point).value_or(true);
+      }));
+    }
+    const std::vector<Polynomial> basis = groebner_basis(own);
+    std::vector<Polynomial> quotients;
+    if (std::ranges::all_of(others, [&](const Polynomial& other) {
+          return other.remainder(basis, &quotients).is_zero();
+        }))
+      return true;
+  }
+  return false;
 }
 
 bool ConstraintSet::makes_constant(const NamedExpression& f) const {

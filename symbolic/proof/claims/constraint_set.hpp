@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "symbolic/proof/claims/ranks.hpp"
@@ -34,6 +35,11 @@ class ConstraintSet {
   /// is zero at a = 1 for all c, and for almost all a at c = 0 only.
   bool contains(const RealPoint& point) const;
 
+  /// Whether the set is certainly a smooth one around the point, with the gradients of the
+  /// constraints across it: these are independent there, or those of some constraints are, and the
+  /// others lie in the ideal of these.
+  bool is_regular(RealPoint& point) const;
+
   /// Whether matrices that have these ranks at a point of the set have them at almost all: the
   /// hypotheses above. False where one is not shown.
   bool have_ranks_everywhere(RealPoint& point, std::vector<RankedRows> all) const;
@@ -46,6 +52,7 @@ class ConstraintSet {
   const PolynomialRows& slopes() const { return slopes_; }
 
  private:
+  std::optional<bool> is_zero_at(const Polynomial& p, const RealPoint& point) const;
   bool are_polynomials(const PolynomialRows& rows) const;
   bool has_variables(const Polynomial& p) const;
   bool is_rational(const RealPoint& point) const;

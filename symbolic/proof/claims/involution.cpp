@@ -22,6 +22,7 @@ Claim involution_claim(const NamedExpression& f, const NamedExpression& g) {
                 decide_within_constraints(prover, proof, {}, on_level, [&](const Proof& open) {
                   return is_open_on_constraints(prover, open) && constraints_are_casimirs(prover);
                 });
+                if (proof.on.empty()) prover.say_where_differentiable(proof, {f.value, g.value});
               }};
   claim.expressions = values_of({f, g});
   claim.subject = Subject::bracket;

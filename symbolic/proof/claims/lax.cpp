@@ -6,6 +6,7 @@
 
 #include "symbolic/functions/spectral_coefficients.hpp"
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/spectrum_count.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
@@ -219,13 +220,23 @@ void decide_lax(Prover& prover, Proof& proof, const LaxPair& pair) {
                            }});
     }
   }
-  if (pair.on.empty())
-    prover.decide(proof, residuals, {});
-  else
-    decide_on_level(prover, proof, residuals, pair);
+  LaxPair on_level = pair;
+  decide_within_constraints(
+      prover, proof, pair.on,
+      [&](Proof& own, const std::vector<NamedExpression>& on) {
+        on_level.on = on;
+        if (on.empty())
+          prover.decide(own, residuals, {});
+        else
+          decide_on_level(prover, own, residuals, on_level);
+      },
+      [&](const Proof& open) {
+        return is_open_on_constraints(prover, open) ||
+               (open.verdict == Verdict::refuted && !pair.on.empty());
+      });
   if (proof.verdict == Verdict::proved) {
     try {
-      describe_integrals(prover, proof, pair);
+      describe_integrals(prover, proof, on_level);
     } catch (const TooLarge& limit) {
       proof.evidence = std::string("its characteristic polynomial: ") + limit.what();
     }

@@ -59,7 +59,8 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
     proof.reason = "the Hamiltonian or the bracket is not real";
     return;
   }
-  const Functions functions = real_ones(prover, integrals_on(prover.model(), on));
+  Functions functions = real_ones(prover, integrals_on(prover.model(), on));
+  const std::string left_out = take_out_jumping(prover, functions);
   PolynomialRows flows;
   for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
   std::optional<RealPoint> point = prover.exact_point(level);
@@ -90,10 +91,9 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
   const std::size_t needed = leaf / 2;
   if (independent < needed || functions.size() > needed ||
       !in_involution(prover, functions, level)) {
-    proof.reason = fmt::format(
-        "its leaves of dimension {} need {} independent integrals in "
-        "involution",
-        leaf, needed);
+    proof.reason =
+        fmt::format("its leaves of dimension {} need {} independent integrals in involution{}",
+                    leaf, needed, left_out);
     return;
   }
   proof.verdict = Verdict::proved;
@@ -102,7 +102,7 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
                   fmt::join(names_of(functions), ", "), leaf, point->text());
   // One point shows nothing of other components of the level, or of other pieces.
   proof.where.push_back("around " + point->text());
-  say_where(proof, "", prover.where_without_jumps(functions));
+  say_where(proof, "", where_beside_poles(prover, functions));
 }
 
 /// Whether f is in involution with every variable, as far as expanding shows it.

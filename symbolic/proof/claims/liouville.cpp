@@ -175,10 +175,17 @@ void decide_liouville(Prover& prover, Proof& proof) {
     proof.reason = "the Hamiltonian or the bracket is not real";
     return;
   }
-  const std::vector<NamedExpression> functions =
-      real_ones(prover, with_hamiltonian(prover.model(), {}));
+  std::vector<NamedExpression> functions = real_ones(prover, with_hamiltonian(prover.model(), {}));
+  const std::string first = functions.empty() ? "" : functions.front().name;
+  const std::string left_out = take_out_jumping(prover, functions);
+  // All others have to commute with the Hamiltonian.
+  if (!first.empty() && (functions.empty() || functions.front().name != first)) {
+    proof.reason = left_out.substr(2);
+    return;
+  }
   const auto leaf = bracket_rank(prover);
   proof.reason = why_not_counted(leaf, functions.size());
+  if (!proof.reason.empty()) proof.reason += left_out;
   if (proof.reason.empty() && !is_poisson(prover))
     proof.reason = "the Jacobi identity is not proved";
   if (!proof.reason.empty()) return;
@@ -196,14 +203,15 @@ void decide_liouville(Prover& prover, Proof& proof) {
         "without the arbitrary functions is not zero",
         listed(own), leaf->rank);
     say_where(proof, leaf->where, leaf->nonzero);
-    say_where(proof, "", prover.where_without_jumps(own));
+    say_where(proof, "", where_beside_poles(prover, own));
     return;
   }
   const auto found = sets_on_pieces(prover, flows, commutes, needed);
   if (!found.complete) {
     proof.reason = fmt::format(
-        "leaves of dimension {} need {} independent integrals in involution; {} known{}",
-        leaf->rank, needed, found.least, found.at.empty() ? "" : " at " + text_of(found.at));
+        "leaves of dimension {} need {} independent integrals in involution; {} known{}{}",
+        leaf->rank, needed, found.least, found.at.empty() ? "" : " at " + text_of(found.at),
+        left_out);
     return;
   }
   if (found.set == 0) {
@@ -229,7 +237,7 @@ void decide_liouville(Prover& prover, Proof& proof) {
   for (const NamedExpression& f : chosen) own.push_back(prover.flow(f.value));
   say_where(proof, found.where != leaf->where ? found.where : "",
             needed_parameters(prover, own, needed));
-  say_where(proof, "", prover.where_without_jumps(chosen));
+  say_where(proof, "", where_beside_poles(prover, chosen));
   prover.say_where_values_are(proof);
   prover.check_inhabited(proof, {});
   require_on_constraints(prover, proof, {{structure_rows(prover), leaf->rank}, {own, needed}});

@@ -8,6 +8,7 @@
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 
 namespace casimir {
 namespace {
@@ -129,17 +130,25 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
            }});
     }
   }
-  const Level level = prover.level(map.on);
-  prover.decide(proof, residuals, level);
+  std::vector<NamedExpression> on;
+  decide_within_constraints(
+      prover, proof, map.on,
+      [&](Proof& own, const std::vector<NamedExpression>& level) {
+        on = level;
+        prover.decide(own, residuals, prover.level(on));
+      },
+      [&](const Proof& open) {
+        return is_open_on_constraints(prover, open) && constraints_are_casimirs(prover);
+      });
   if (proof.verdict != Verdict::proved || !leads_to_its_image(prover, proof, map) ||
       !leads_into_domain(prover, proof, map))
     return;
   say_where_it_leads(prover, proof, map);
-  if (level.empty()) return;
+  if (on.empty()) return prover.say_where_differentiable(proof, map.expressions);
   std::vector<NamedExpression> functions;
   for (std::size_t i = 0; i < y.size(); ++i)
     functions.push_back({y[i].get_name(), map.expressions[i], {}});
-  prover.is_smooth_on(proof, level, functions);
+  prover.is_smooth_on(proof, prover.level(on), functions);
 }
 
 GiNaC::exmap lift_of(const Model& model, const PoissonMap& map, const MapInverse& inverse) {

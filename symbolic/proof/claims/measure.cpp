@@ -131,7 +131,10 @@ void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density
       {});
   judge_density(prover, proof, density.value);
   if (proof.verdict != Verdict::proved) return;
-  say_where(proof, "", prover.where_without_jumps(std::vector{density}, every));
+  std::vector<std::string> where;
+  for (const Polynomial& f : prover.passed_jumps(prover.convert(density.value), true, every))
+    where.push_back(fmt::format("on motions that do not cross {} = 0", prover.ring().text(f)));
+  say_where(proof, "", where);
 }
 
 }  // namespace

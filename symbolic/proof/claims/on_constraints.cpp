@@ -66,8 +66,11 @@ void require(Prover& prover, Proof& proof, const ConstraintSet& constraints,
   std::string part;
   bool of_all = false;
   const bool any = look_at_points(prover, constraints, [&](RealPoint& point) {
-    for (const RankedRows& one : all)
+    for (const RankedRows& one : all) {
       if (point.rank(one.rows) < rank_at(point, one)) return false;
+      // At the cusp of v^2 = u^3 no gradient is that of the constraint, and u and v are dependent.
+      if (!one.beyond.empty() && !constraints.is_regular(point)) return false;
+    }
     if (part.empty()) part = name_of(prover.model(), point);
     of_all = constraints.have_ranks_everywhere(point, all);
     return of_all;

@@ -1,5 +1,7 @@
 #include "symbolic/proof/claims/real_functions.hpp"
 
+#include <fmt/format.h>
+
 namespace casimir {
 
 bool may_be_complex(const Prover& prover, const Polynomial& f) {
@@ -32,6 +34,41 @@ std::vector<NamedExpression> real_ones(Prover& prover, std::vector<NamedExpressi
     return may_be_complex(prover, prover.convert(f.value));
   });
   return functions;
+}
+
+namespace {
+
+/// As |x|/x^2, which is 1/|x|, in lowest terms: |x|/x jumps.
+bool has_pole(Prover& prover, const Polynomial& f, const Polynomial& where) {
+  Polynomial once(f.ring()), twice(f.ring());
+  return prover.ring().lowest_terms(f).second.divide(where, &once) && once.divide(where, &twice);
+}
+
+}  // namespace
+
+std::string take_out_jumping(Prover& prover, std::vector<NamedExpression>& functions) {
+  std::string which;
+  std::erase_if(functions, [&](const NamedExpression& f) {
+    const Polynomial value = prover.convert(f.value);
+    for (const Polynomial& jump : prover.passed_jumps(value, true)) {
+      if (has_pole(prover, value, jump)) continue;
+      which +=
+          fmt::format("; {} is not counted, since it may jump where {} = 0, which motions pass",
+                      f.name, prover.ring().text(jump));
+      return true;
+    }
+    return false;
+  });
+  return which;
+}
+
+std::vector<std::string> where_beside_poles(Prover& prover,
+                                            const std::vector<NamedExpression>& functions) {
+  std::vector<std::string> where;
+  for (const NamedExpression& f : functions)
+    for (const Polynomial& pole : prover.passed_jumps(prover.convert(f.value), true))
+      where.push_back(fmt::format("on motions that do not cross {} = 0", prover.ring().text(pole)));
+  return where;
 }
 
 }  // namespace casimir

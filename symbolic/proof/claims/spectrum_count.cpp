@@ -47,6 +47,9 @@ std::string why_not_counted(Prover& prover, const std::vector<Polynomial>& found
   if (has_complex_motion(prover) ||
       std::ranges::any_of(found, [&](const auto& f) { return may_be_complex(prover, f); }))
     return "some may have complex values";
+  if (std::ranges::any_of(found,
+                          [&](const auto& f) { return !prover.passed_jumps(f, true).empty(); }))
+    return "some may jump where motions pass";
   // Of a function of it each value gives another integral.
   if (spectral && std::ranges::any_of(found, [&](const auto& f) {
         return prover.ring().expression(f).has(*spectral);
@@ -94,7 +97,6 @@ void count_on_level(Prover& prover, const std::vector<Polynomial>& found,
     count.reason = "at this point there are fewer than half the dimension of its leaf";
   else
     count.verdict = Verdict::proved;
-  if (count.verdict == Verdict::proved) count.where = prover.where_without_jumps(found);
 }
 
 }  // namespace
@@ -146,7 +148,6 @@ SpectrumCount count_of_spectrum(Prover& prover, const std::vector<Polynomial>& f
   Proof where;
   say_where(where, leaf->where, leaf->nonzero);
   say_where(where, rank->where != leaf->where ? rank->where : "", rank->nonzero);
-  say_where(where, "", prover.where_without_jumps(found));
   count.where = std::move(where.where);
   return count;
 }

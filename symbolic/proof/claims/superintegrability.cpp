@@ -15,6 +15,7 @@ namespace {
 /// of its function does, so that flows count there.
 struct Chosen {
   std::vector<NamedExpression> functions, others;  ///< others follow from the functions
+  std::string left_out;  ///< those that are not counted, as the end of a reason
   PolynomialRows flows;
   GenericRank rank;  ///< of all flows together
 };
@@ -45,14 +46,16 @@ std::optional<Chosen> independent_integrals(Prover& prover, Proof& proof) {
   std::erase_if(functions, [&](const NamedExpression& f) {
     return !prover.is_zero(prover.rate(prover.convert(f.value)));
   });
+  Chosen result;
+  result.left_out = take_out_jumping(prover, functions);
   PolynomialRows flows;
   for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
   auto found = flows.empty() ? std::nullopt : rank_with_conditions(prover, flows);
   if (!found || !found->uneven.empty()) {
-    proof.reason = found ? found->uneven : "no point of the domain was found to take flows at";
+    proof.reason = (found ? found->uneven : "no point of the domain was found to take flows at") +
+                   result.left_out;
     return std::nullopt;
   }
-  Chosen result;
   auto others = found->points.empty() ? dependent_of_constant(prover, functions, flows)
                                       : dependent(functions, flows, found->points);
   if (!others) {
@@ -135,8 +138,8 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
   const std::size_t half = leaf->rank / 2, count = chosen->functions.size();
   if (half == 0 || count <= half) {
     proof.reason =
-        fmt::format("leaves of dimension {} need more than {} independent integrals; {} known",
-                    leaf->rank, half, count);
+        fmt::format("leaves of dimension {} need more than {} independent integrals; {} known{}",
+                    leaf->rank, half, count, chosen->left_out);
     return;
   }
   const PolynomialRows matrix = brackets(prover, chosen->functions);
@@ -145,9 +148,9 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
   if (!rank || !rank->exact || rank->rank != isotropic) {
     proof.reason = fmt::format(
         "{} are independent, but their joint levels are isotropic only where the matrix of their "
-        "brackets has rank {}; it has {}{}",
+        "brackets has rank {}; it has {}{}{}",
         listed(chosen->functions), isotropic, rank && !rank->exact ? "at least " : "",
-        rank ? std::to_string(rank->rank) : "no rank that was found");
+        rank ? std::to_string(rank->rank) : "no rank that was found", chosen->left_out);
     return;
   }
   if (!close(prover, *chosen, matrix)) {
@@ -172,7 +175,7 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
   say_where(proof, leaf->where, leaf->nonzero);
   say_where(proof, flows.where != leaf->where ? flows.where : "", flows.nonzero);
   say_where(proof, "", rank->nonzero);
-  say_where(proof, "", prover.where_without_jumps(chosen->functions));
+  say_where(proof, "", where_beside_poles(prover, chosen->functions));
   prover.say_where_values_are(proof);
   prover.check_inhabited(proof, {});
   require_on_constraints(

@@ -1,10 +1,13 @@
 // For each kind of claim one that holds and one that does not, by one sign, term or function.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "symbolic/proof/claims/claim_kinds.hpp"
 #include "symbolic/prove.hpp"
+#include "tests/folder.hpp"
 #include "tests/symbolic/cases.hpp"
 
 namespace casimir::test {
@@ -199,6 +202,62 @@ TEST(Claims, MapOnALevelHoldsThereOnly) {
       "\"c2*a3 - c3*a2 - b1\", \"c3*a1 - c1*a3 - b2\", \"c1*a2 - c2*a1 - b3\"]\n";
   EXPECT_EQ(proof_of(model_of(head + level), "map").verdict, Verdict::proved);
   EXPECT_EQ(proof_of(model_of(head), "map").verdict, Verdict::refuted);
+}
+
+// The file beside the case comes first, then those that the caller knows.
+TEST(Claims, AMapLeadsToTheCaseBesideIt) {
+  const Folder folder;
+  const std::string plane = "hamiltonian = \"0\"\n[phase_space]\nvariables = [\"Q\", \"P\"]\n";
+  folder.write("double.toml", plane + "brackets = { \"Q,P\" = \"2\" }\n");
+  folder.write(
+      "a.toml",
+      "hamiltonian = \"0\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n"
+      "[[map]]\nname = \"m\"\nto = \"double\"\nexpressions = { Q = \"2*q\", P = \"p\" }\n");
+  const CaseFile file = read_case(folder / "a.toml");
+  EXPECT_EQ(proof_of(build_model(file), "map").verdict, Verdict::proved);
+  const FindCase known = [&](const std::string&) -> std::optional<CaseFile> {
+    return parse_case(plane + "canonical = true\n", "known.toml");
+  };
+  EXPECT_EQ(proof_of(build_model(file, {}, known), "map").verdict, Verdict::proved);
+  std::filesystem::remove(folder / "double.toml");
+  EXPECT_EQ(proof_of(build_model(file, {}, known), "map").verdict, Verdict::refuted);
+  EXPECT_THROW(build_model(file), CaseError);
+}
+
+// Whatever a bracket multiplies sign(p) by: at p = 0 there is none.
+TEST(Claims, ABracketIsOneWhereTheFunctionsAreDifferentiable) {
+  const auto where = [](const std::string& image) {
+    const Proof proof = proof_of(model_of(R"toml(
+hamiltonian = "p^2/2"
+[phase_space]
+variables = ["q", "p"]
+canonical = true
+[[map]]
+name = "kink"
+to = { variables = ["Q", "P"], canonical = true }
+expressions = { Q = "q + )toml" + image + "\", P = \"p\" }\n"),
+                                 "map");
+    EXPECT_EQ(proof.verdict, Verdict::proved) << image << ' ' << proof.reason;
+    return proof.where;
+  };
+  const std::vector<std::string> beside = {"p != 0"};
+  EXPECT_EQ(where("abs(p)"), beside);
+  EXPECT_EQ(where("sqrt(p^2)"), beside);
+  EXPECT_EQ(where("atan2(p, -1)"), beside);
+  EXPECT_TRUE(where("p*abs(p)").empty());
+  EXPECT_TRUE(where("(p^2)^(3/2)").empty());
+  const Proof involution = proof_of(model_of(R"toml(
+hamiltonian = "(p1^2 + p2^2)/2"
+[phase_space]
+variables = ["q1", "q2", "p1", "p2"]
+canonical = true
+[integrals]
+A = "abs(p1)"
+B = "p2"
+)toml"),
+                                    "involution");
+  EXPECT_EQ(involution.verdict, Verdict::proved);
+  EXPECT_EQ(involution.where, std::vector<std::string>{"p1 != 0"});
 }
 
 TEST(Claims, LaxPairGivesItsIntegralsIdenticallyInTheSpectralParameter) {

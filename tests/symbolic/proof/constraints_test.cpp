@@ -41,6 +41,22 @@ TEST(Constraints, AnIntegralOfTheMotionOnThemIsProved) {
   EXPECT_EQ(refuted.witness->point.at(1), (std::pair<std::string, std::string>{"y", "0"}));
 }
 
+// Numerators are decided, and what is shown is about the functions.
+TEST(Constraints, CofactorsHaveTheirDenominators) {
+  const auto evidence = [](const char* dx, const char* dy, const char* relation) {
+    return proof_within(
+               "invariant_relation",
+               std::string("[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"") + dx +
+                   "\"\ny = \"" + dy + "\"\n[[invariant_relation]]\nname = \"a\"\n" +
+                   "expression = \"" + relation + "\"\n")
+        .evidence;
+  };
+  EXPECT_EQ(evidence("1 + x^2", "3*y", "y"), "d(a)/dt has the cofactor 3 of a");
+  EXPECT_EQ(evidence("1 + x^2", "y/x", "y"), "d(a)/dt has the cofactor 1/x of a");
+  EXPECT_EQ(evidence("1 + x^2", "y/x", "y/x"), "d(a)/dt has the cofactor -x of a");
+  EXPECT_EQ(evidence("1 + x^2", "3*y/2", "2*y"), "d(a)/dt has the cofactor 3/2 of a");
+}
+
 TEST(Constraints, AnIdentityOnThemIsProved) {
   const auto identity = [](const char* left) {
     return proof_within(
@@ -250,6 +266,61 @@ z = "0"
 density = "1"
 )toml");
   EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+}
+
+// At a point where the constraint has no gradient functions may seem independent that it makes
+// dependent: beside a cusp, two lines, an isolated point, and where squares vanish.
+TEST(Constraints, IndependenceOnThemIsTakenAtARegularPoint) {
+  const auto independence = [](const char* constraint, const char* functions) {
+    return proof_within("independence",
+                        "hamiltonian = \"p^2/2 + q^4\"\n[phase_space]\nvariables = [\"q\", \"p\", "
+                        "\"u\", \"v\"]\nbrackets = { \"q,p\" = \"1\" }\nconstraints = [\"" +
+                            std::string(constraint) + "\"]\n[casimirs]\n" + functions)
+        .verdict;
+  };
+  const char* both = "F = \"u\"\nG = \"v\"\n";
+  for (const char* constraint : {"v^2 - u^3", "u^2 - 2*v^2", "v^2 - u^2*(u - 1)", "u^2 + v^2"})
+    EXPECT_NE(independence(constraint, both), Verdict::proved) << constraint;
+  EXPECT_EQ(independence("v^2 - u^3", "F = \"v\"\n"), Verdict::proved);
+  EXPECT_EQ(independence("v^2 - u^2 - 1", "F = \"v\"\n"), Verdict::proved);
+  // Constraints that follow from others leave a regular point one, and an isolated one none.
+  EXPECT_EQ(independence("v - u\", \"v^2 - u^2", "F = \"v\"\n"), Verdict::proved);
+  EXPECT_NE(independence("v - u\", \"v^2 - u^2", both), Verdict::proved);
+  EXPECT_EQ(independence("(v - u)*(v^2 + u^2 + 1)\", \"(v - u)*(v + u^2 + 7)", "F = \"v\"\n"),
+            Verdict::proved);
+  EXPECT_NE(independence("v^2 - u^3\", \"v^3 - u^3*v", both), Verdict::proved);
+}
+
+TEST(Constraints, ALaxPairOfTheMotionOnThemIsProved) {
+  const std::string pair =
+      "[[lax]]\nL = [[\"x\", \"0\"], [\"0\", \"1\"]]\nA = [[\"0\", \"0\"], [\"0\", \"0\"]]\n";
+  const Proof proved = proof_within("lax", on_curve("y", "y", "x*y", pair));
+  EXPECT_EQ(proved.verdict, Verdict::proved) << proved.reason;
+  EXPECT_EQ(proved.on, std::vector<std::string>{"y"});
+  EXPECT_EQ(proved.integrals.back(), "x");
+  // Of constraints that the motion leaves nothing follows.
+  EXPECT_NE(proof_within("lax", on_curve("y", "y", "1 + x*y", pair)).verdict, Verdict::proved);
+  EXPECT_EQ(proof_within("lax", on_curve("y", "1 + y", "x*y", pair)).verdict, Verdict::refuted);
+}
+
+TEST(Constraints, AMapIsPoissonOnALevelOfCasimirFunctions) {
+  const auto map = [](const std::string& space, const std::string& image) {
+    return proof_within("map", "hamiltonian = \"0\"\n[phase_space]\n" + space +
+                                   "[[map]]\nname = \"m\"\n"
+                                   "to = { variables = [\"Q\", \"P\"], canonical = true }\n"
+                                   "expressions = { Q = \"" +
+                                   image + "\", P = \"y\" }\n");
+  };
+  const std::string leaf =
+      "variables = [\"x\", \"y\", \"z\"]\nbrackets = { \"x,y\" = \"1\" }\n"
+      "constraints = [\"z\"]\n";
+  const Proof proved = map(leaf, "x + x*z");
+  EXPECT_EQ(proved.verdict, Verdict::proved) << proved.reason;
+  EXPECT_EQ(proved.on, std::vector<std::string>{"z"});
+  EXPECT_EQ(map(leaf, "2*x + x*z").verdict, Verdict::refuted);
+  // On another level there is no bracket.
+  const std::string line = "variables = [\"x\", \"y\"]\ncanonical = true\nconstraints = [\"x\"]\n";
+  EXPECT_EQ(map(line, "x + x^2").verdict, Verdict::undecided);
 }
 
 TEST(Constraints, ACandidateThatIsConstantOnThemIsSaidToBe) {
