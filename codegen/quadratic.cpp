@@ -11,6 +11,7 @@
 
 #include "codegen/emit/number_literal.hpp"
 #include "codegen/optimise/lower.hpp"
+#include "runtime/program/exact_number.hpp"
 
 namespace casimir {
 namespace {
@@ -66,14 +67,14 @@ Program with_numbers(Program program, const std::vector<double>& parameters) {
     const std::size_t parameter = static_cast<std::size_t>(code.a) - states;
     if (parameter >= parameters.size()) continue;  // the time
     code = {Op::constant, static_cast<int>(program.constants.size()), -1};
-    program.constants.push_back(cln::rational(cln::cl_DF(parameters[parameter])));
+    program.constants.push_back(exact_number(parameters[parameter]));
   }
   return codegen::without_dead_code(program);
 }
 
 double lost_by_rounding(const cln::cl_RA& exact, double rounded) {
   if (!std::isfinite(rounded)) return 0;
-  return cln::double_approx(exact - cln::rational(cln::cl_DF(rounded)));
+  return nearest_double(exact - exact_number(rounded));
 }
 
 class QuadraticExpander {
@@ -142,7 +143,7 @@ std::optional<QuadraticForm> quadratic_form(const Program& rhs, const Limits& li
   std::map<std::pair<int, int>, std::pair<std::vector<double>, std::vector<double>>> products;
   for (std::size_t i = 0; i < n; ++i) {
     for (const auto& [states, exact] : (*rates)[i]) {
-      const double factor = cln::double_approx(exact), rest = lost_by_rounding(exact, factor);
+      const double factor = nearest_double(exact), rest = lost_by_rounding(exact, factor);
       if (states.second == kOne) {
         form.constant[i] = factor;
         form.constant_rest[i] = rest;

@@ -238,6 +238,8 @@ std::string reason_of(Status status) {
       return "an invariant drifted by more than the tolerance allows";
     case Status::stopped:
       return "the run was stopped";
+    case Status::at_jump:
+      return "the motion stays where a sign jumps, and the equations have no solution there";
   }
   return "";
 }
@@ -281,6 +283,8 @@ std::string to_string(Status status) {
       return "drift_exceeded";
     case Status::stopped:
       return "stopped";
+    case Status::at_jump:
+      return "at_jump";
   }
   return "";
 }

@@ -21,6 +21,7 @@ enum class Status {
   no_convergence,
   drift_exceeded,
   stopped,
+  at_jump,  ///< the motion stays where a sign jumps
 };
 
 /// "ok", "singularity", ..: as the interface spells them.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "runtime/digits/precise_branch.hpp"
@@ -10,8 +11,10 @@
 #include "runtime/digits/root_zeros.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/program/angle_branches.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "runtime/program/interpreter.hpp"
 #include "runtime/program/program_series.hpp"
+#include "runtime/undefined_motion.hpp"
 
 namespace casimir {
 namespace {
@@ -75,6 +78,7 @@ class PreciseRunner {
     if (problem.from_other_side) move_to_other_side();
     parameters_.assign(middle, start.end() - 1);
     look_.emplace(*problem.rhs, state_, parameters_);
+    undefined_.emplace(*problem.rhs);
     roots_.emplace(*problem.rhs, doubles(parameters_));
     end_ = problem.end ? BigFloat(*problem.end) : start.back();
     if (problem.mark) mark_ = BigFloat(*problem.mark);
@@ -89,6 +93,7 @@ class PreciseRunner {
     record_sizes();
     record_samples({}, time_);
     try {
+      look_for_undefined();
       integrate();
     } catch (const std::domain_error& problem) {
       stop(Status::singularity, std::string("the equations have no value here: ") + problem.what());
@@ -225,8 +230,27 @@ class PreciseRunner {
     follow_angles(series, next);
     time_ = next;
     ++run_.steps;
+    look_for_undefined();
     record_sizes();
     follow_invariants();
+  }
+
+  /// Ends the run where it stays at a jump.
+  void look_for_undefined() {
+    if (!undefined_->looks()) return;
+    std::vector<BigFloat> inputs = state_;
+    inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
+    inputs.push_back(time_);
+    std::vector<bool> zero;
+    for (const BigFloat& value : evaluate(undefined_->arguments(), inputs))
+      zero.push_back(value.is_zero());
+    std::vector<double> now = doubles(inputs);
+    bool stays = false;
+    for (std::size_t k = 0; k < zero_.size(); ++k) stays = stays || (zero[k] && zero_[k]);
+    const std::string why = stays ? undefined_->why(Status::ok, before_, now) : "";
+    if (!why.empty()) stop(Status::at_jump, why);
+    before_ = std::move(now);
+    zero_ = std::move(zero);
   }
 
   /// Ends the run before a place in this step behind which the motion need not be the only one.
@@ -338,7 +362,7 @@ class PreciseRunner {
     const std::vector<double> x = doubles(state_);
     if (angles_)
       return angles_->advance(double_of(next), x.data(), [&](double t, double* between) {
-        std::ranges::copy(doubles(at(series, BigFloat(cln::rational(cln::cl_DF(t))))), between);
+        std::ranges::copy(doubles(at(series, BigFloat(exact_number(t)))), between);
       });
     angles_.emplace(
         *problem_.invariants, doubles(parameters_),
@@ -395,6 +419,9 @@ class PreciseRunner {
   cln::float_format_t format_;
   std::vector<BigFloat> state_, parameters_, initial_, final_, changes_;
   std::optional<PreciseLook> look_;
+  std::optional<UndefinedMotion> undefined_;
+  std::vector<double> before_;  ///< what it saw last, beside ..
+  std::vector<bool> zero_;      ///< .. which arguments were 0 to all digits
   std::optional<RootZeros> roots_;
   std::optional<AngleFollower> angles_;  ///< of the invariants, if they have any
   BigFloat time_, end_;

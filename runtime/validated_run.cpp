@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "runtime/certificate/hex_float.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "runtime/trace_check.hpp"
 #include "runtime/validated/crossings.hpp"
 #include "runtime/validated/lohner.hpp"
@@ -292,9 +293,9 @@ class Runner {
   /// Boxes at the samples within the step, and before the end.
   void record_samples(bool last, double next) {
     if (!cln::plusp(settings_.sample_every)) return;
-    const cln::cl_RA from = cln::rational(cln::cl_DF(elapsed_));
+    const cln::cl_RA from = exact_number(elapsed_);
     // An irrational end is only known to be in a ball, but the step was enclosed for all of it.
-    const cln::cl_RA to = last ? end_time_ : cln::rational(cln::cl_DF(next));
+    const cln::cl_RA to = last ? end_time_ : exact_number(next);
     for (;; ++sample_) {
       const cln::cl_RA time = settings_.sample_every * sample_;
       if (time > to || (last && time == to)) return;
@@ -304,7 +305,7 @@ class Runner {
   }
 
   void finish() {
-    cln::cl_RA time = cln::rational(cln::cl_DF(elapsed_));
+    cln::cl_RA time = exact_number(elapsed_);
     if (done_) time = end_time_;
     run_.end = box_of(lohner_.box(), time);
     if (cln::plusp(settings_.sample_every) && !run_.samples.empty() &&

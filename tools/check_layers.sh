@@ -17,7 +17,7 @@ function layer(file) {
 }
 BEGIN {
   may["symbolic"] = "^symbolic/"
-  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/program/function_table[.]hpp$|runtime/module_abi[.]h$|runtime/instruction_set[.]hpp$|runtime/taylor/quadratic_form[.]hpp$|runtime/taylor/lane_form[.]hpp$)"
+  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/program/(exact_number|function_table)[.]hpp$|runtime/module_abi[.]h$|runtime/instruction_set[.]hpp$|runtime/taylor/quadratic_form[.]hpp$|runtime/taylor/lane_form[.]hpp$)"
   may["runtime"] = "^runtime/"
   may["runtime/kernels"] = "^(runtime/kernels/|runtime/module_abi[.]h$)"
   may["tools/analysis"] = "^(tools/analysis|codegen|symbolic|runtime)/"

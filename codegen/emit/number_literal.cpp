@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "runtime/program/exact_number.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
 
@@ -93,26 +94,16 @@ bool fits(const cln::cl_I& integer, int bits) {
   return cln::integer_length(integer) <= static_cast<unsigned long>(bits);
 }
 
-/// What that double is, which is not what its shortest decimal says.
-cln::cl_RA exact_value(double value) {
-  int exponent = 0;
-  constexpr int kBits = std::numeric_limits<double>::digits;
-  const cln::cl_I mantissa = static_cast<long>(std::ldexp(std::frexp(value, &exponent), kBits));
-  exponent -= kBits;
-  return exponent < 0 ? mantissa / cln::cl_RA(cln::ash(1, -exponent))
-                      : cln::cl_RA(cln::ash(mantissa, exponent));
-}
-
 /// Three doubles whose sum has more bits than any type here.
 std::string sum_of_doubles(cln::cl_RA value, const std::string& type) {
-  const cln::cl_RA least = exact_value(std::numeric_limits<double>::min());
+  const cln::cl_RA least = exact_number(std::numeric_limits<double>::min());
   std::string text;
   for (int i = 0; i < 3 && value != 0; ++i) {
     if (i > 0 && cln::abs(value) < least) break;  // no double has these bits
     const double part = nearest<double>(value);
     if (!text.empty()) text += " + ";
     text += (text.empty() ? type : "") + "(" + shortest(part) + ")";
-    value = value - exact_value(part);
+    value = value - exact_number(part);
   }
   return text;
 }

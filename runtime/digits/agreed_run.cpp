@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "runtime/digits/cancellation.hpp"
-#include "runtime/program/undefined_sign.hpp"
 #include "runtime/program/zero_states.hpp"
+#include "runtime/undefined_motion.hpp"
 
 namespace casimir {
 namespace {
@@ -100,10 +100,7 @@ class Search {
     }
     // No run was made with the digits that these would take: that two agree says nothing.
     if (cancels) best_.digits = 0;
-    if (best_.run.status == Status::ok && rests_where_signs_have_no_value()) {
-      best_.run.status = Status::non_finite;
-      best_.run.reason = kSignOfZero;
-    }
+    refuse_at_jump();
     return std::move(best_);
   }
 
@@ -113,8 +110,8 @@ class Search {
     return cancelled_digits(rhs_, state, problem_.start(wanted_).back(), wanted_ + kMoreDigits);
   }
 
-  /// By doubles: what is 0 among them is 0.
-  bool rests_where_signs_have_no_value() const {
+  /// A motion that stays where a sign jumps is none. By doubles: what is 0 among them is 0.
+  void refuse_at_jump() {
     const std::vector<cln::cl_R> start = problem_.start(wanted_);
     const auto approximate = [](const cln::cl_R& x) {
       const double result = cln::double_approx(x);
@@ -129,11 +126,13 @@ class Search {
       return result;
     };
     try {
-      return takes_sign_of_zero(rhs_, inputs(start, 0), inputs(best_.run.state, best_.run.time));
+      const std::string why = UndefinedMotion(rhs_).why(best_.run.status, inputs(start, 0),
+                                                        inputs(best_.run.state, best_.run.time));
+      if (why.empty()) return;
+      best_.run.status = Status::at_jump;
+      best_.run.reason = why;
     } catch (const cln::runtime_exception&) {
-      return false;  // a number beyond all doubles is not 0
-    } catch (const std::domain_error&) {
-      return false;
+      // A number beyond all doubles is not 0.
     }
   }
 

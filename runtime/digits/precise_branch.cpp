@@ -45,6 +45,7 @@ BigFloat PreciseLook::size(const PreciseStep& step) {
   std::vector<double> x0, x1;
   for (const BigFloat& value : step.state(BigFloat())) x0.push_back(double_of(value));
   for (const BigFloat& value : step.state(step.size)) x1.push_back(double_of(value));
+  if (chatter_.goes_on(double_of(step.begin))) return {};
   const double begin = double_of(step.begin), end = double_of(step.begin + step.size);
   const double part =
       (*look_)({begin, end, x0.data(), x1.data(), &state_at, &step, nullptr, nullptr});
@@ -61,6 +62,7 @@ BigFloat PreciseLook::size(const PreciseStep& step) {
       argument(step, met->place, BigFloat()).sign() * argument(step, met->place, shorter).sign() >
           0)
     return shorter;
+  chatter_.cut();
   BigFloat behind = branch(step, met->place, shorter);
   if (met->kind != StepWatch::Kind::side) landing_ = behind;
   return behind;
@@ -76,6 +78,7 @@ BigFloat PreciseLook::up_to_unseen_branch(const PreciseStep& step) {
     const BigFloat behind = branch(step, watched.place, *beyond);
     if (!((behind - size).sign() * step.size.sign() < 0)) continue;
     size = behind;
+    chatter_.cut();
     landing_.reset();
     jumps_ = false;
     if (watched.kind == Kind::jump) landing_ = behind;

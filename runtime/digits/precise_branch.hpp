@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/digits/big_float.hpp"
+#include "runtime/step/chatter.hpp"
 #include "runtime/step/step_look.hpp"
 
 namespace casimir {
@@ -34,7 +35,7 @@ class PreciseLook {
 
   /// The step that may be taken, or is to be tried, in the place of this one: the same size if it
   /// may be taken. One that ends where a branch begins is just so long that the argument has the
-  /// sign of the other side.
+  /// sign of the other side. 0 where the run chatters about a jump.
   /// \throws UnknownBranch
   BigFloat size(const PreciseStep& step);
 
@@ -55,6 +56,7 @@ class PreciseLook {
 
   StepWatch watch_;
   std::vector<BigFloat> parameters_;
+  Chatter chatter_{256};             // a look of many digits takes as long as a thousand others
   std::unique_ptr<StepLook> look_;   ///< none where there is nothing to be watched
   std::optional<BigFloat> landing_;  ///< the size of a step that is to end behind a jump
   bool jumps_ = false;

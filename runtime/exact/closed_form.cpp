@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/exact/shapes.hpp"
+#include "runtime/program/exact_number.hpp"
 
 namespace casimir {
 namespace exact {
@@ -91,7 +92,7 @@ constexpr double kShownInPeriod = 16, kMostShown = 4096;
 std::vector<cln::cl_F> exactly(const double* x, const std::vector<cln::cl_F>& like) {
   std::vector<cln::cl_F> numbers;
   for (std::size_t i = 0; i < like.size(); ++i)
-    numbers.push_back(cln::cl_float(cln::rational(cln::cl_DF(x[i])), like[i]));
+    numbers.push_back(cln::cl_float(exact_number(x[i]), like[i]));
   return numbers;
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/program.hpp"
+#include "runtime/program/exact_number.hpp"
 
 namespace casimir {
 
@@ -24,11 +25,10 @@ template <class Real>
 struct IeeeArithmetic {
   /// Rounded twice for types wider than double: by at most two units in the last place.
   static Real from(const cln::cl_RA& value) {
-    const double high = cln::double_approx(value);
+    const double high = nearest_double(value);
     if constexpr (sizeof(Real) <= sizeof(double)) return static_cast<Real>(high);
     if (!std::isfinite(high)) return static_cast<Real>(high);
-    return static_cast<Real>(high) +
-           static_cast<Real>(cln::double_approx(value - cln::rational(cln::cl_DF(high))));
+    return static_cast<Real>(high) + static_cast<Real>(nearest_double(value - exact_number(high)));
   }
   static Real pi() { return static_cast<Real>(3.14159265358979323846264338327950288L); }
   static Real divide(Real a, Real b) { return a / b; }

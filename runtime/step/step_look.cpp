@@ -72,7 +72,7 @@ void StepLook::begin(const double* parameters, const double* state) {
   jump_.reset();
   shift_ = 0.5;
   quiet_for_ = 0;
-  chatter_ = {};
+  chatter_ = Chatter();
   at_pole_ = false;
   if (poles_) poles_->begin(parameters);
 }

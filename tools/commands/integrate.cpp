@@ -361,9 +361,11 @@ int integrate_case(const IntegrateArguments& options) {
     run_it();
     interrupted = watched.interrupted();
   };
-  if (!options.output.empty())
-    how.sample_every =
-        options.every > 0 ? options.every : std::abs(settings_for(how.run, run).duration) / 1000;
+  if (!options.output.empty()) {
+    const double span = std::abs(settings_for(how.run, run).duration);
+    const double part = span > 0 ? span / 1000 : 1;  // of no time the start alone
+    how.sample_every = options.every > 0 ? options.every : part;
+  }
   AssessedRun judged = integrate_assessed(model, run, how);
   const std::vector<std::string> of_variables = answer.judge(judged);
   RunWords words = words_of(judged, interrupted);

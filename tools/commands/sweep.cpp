@@ -237,7 +237,7 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
                      output,          options.jobs > 0 ? options.jobs : ranks.processors(),
                      p.study.lanes(), watch.seconds()};
   if (outcome.complete) report.checked = p.study.check(outcome.rows);
-  report.warnings = p.study.warnings(report.checked);
+  report.warnings = p.study.warnings(outcome.rows, report.checked);
   if (options.common.json)
     print_json(sweep_json(report));
   else if (!options.common.quiet)

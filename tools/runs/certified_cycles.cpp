@@ -3,6 +3,7 @@
 #include <cln/float.h>
 #include <cln/real.h>
 
+#include "runtime/program/exact_number.hpp"
 #include "tools/show/notation.hpp"
 #include "tools/text/files/plain_case.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 GiNaC::ex middle_double(const RationalInterval& interval) {
   const double middle = cln::double_approx((interval.low + interval.high) / 2);
   if (middle == 0) return 0;
-  return GiNaC::numeric(cln::cl_N(cln::rational(cln::cl_DF(middle))));
+  return GiNaC::numeric(cln::cl_N(exact_number(middle)));
 }
 
 }  // namespace

@@ -29,8 +29,9 @@ using Json = nlohmann::ordered_json;
 
 /// Worst first: the status of the whole is the first that some member has.
 constexpr std::array kMemberStatuses = {
-    Status::singularity,    Status::non_finite, Status::step_underflow, Status::no_convergence,
-    Status::drift_exceeded, Status::max_steps,  Status::stopped,        Status::ok};
+    Status::singularity,    Status::at_jump,        Status::non_finite,
+    Status::step_underflow, Status::no_convergence, Status::drift_exceeded,
+    Status::max_steps,      Status::stopped,        Status::ok};
 
 /// An ensemble that was integrated, and all that a report says of it.
 struct EnsembleReport {
@@ -273,11 +274,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
       ensemble_kernel(run, method, ensemble.size(), !(settings.fixed_step > 0));
   EnsembleResult result;
   try {
-    const Program& invariants = run.specialisation.invariants;
-    result = kernel.lanes
-                 ? integrate_in_lanes(ensemble, *kernel.lanes, invariants, settings, request.jobs)
-                 : integrate_members(ensemble, kernel.module_for_thread, method, invariants,
-                                     settings, request.jobs);
+    result = casimir::integrate_ensemble(ensemble, run, kernel, method, settings, request.jobs);
   } catch (const std::invalid_argument& problem) {
     throw UsageError(problem.what());
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "runtime/program/exact_number.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/analysis/section/orbits.hpp"
@@ -202,7 +203,7 @@ int enclose_orbits(const Common& common, const Model& model, const SectionProble
   const Stopwatch all_of_them;
   for (const std::vector<double>& start : starts) {
     for (std::size_t i = 0; i < start.size(); ++i)
-      scene.initial[i] = GiNaC::numeric(cln::rational(cln::cl_DF(start[i])));
+      scene.initial[i] = GiNaC::numeric(exact_number(start[i]));
     const Stopwatch own;
     const ProvedCrossings proved = enclose_crossings(model, scene, problem.plane_function, options);
     const CrossingReport report{model, problem, scene.name, proved, own.seconds()};

@@ -55,7 +55,8 @@ bool warned(const Json& answer) {
 Status status_named(const std::string& name) {
   constexpr Status kStatuses[] = {
       Status::ok,        Status::singularity,    Status::non_finite,     Status::step_underflow,
-      Status::max_steps, Status::no_convergence, Status::drift_exceeded, Status::stopped};
+      Status::max_steps, Status::no_convergence, Status::drift_exceeded, Status::stopped,
+      Status::at_jump};
   return *std::ranges::find(kStatuses, name, [](Status status) { return to_string(status); });
 }
 

@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
+#include "tools/analysis/run/doubted_invariants.hpp"
 #include "tools/analysis/sweep/indicators.hpp"
 #include "tools/analysis/sweep/lyapunov.hpp"
 #include "tools/analysis/sweep/rotations.hpp"
@@ -108,10 +110,15 @@ std::vector<CheckedMember> SweepStudy::check(const std::vector<PointResult>& row
   return integrations ? integrations->check(rows) : std::vector<CheckedMember>{};
 }
 
-std::vector<std::string> SweepStudy::warnings(const std::vector<CheckedMember>& checked) const {
+std::vector<std::string> SweepStudy::warnings(const std::vector<PointResult>& rows,
+                                              const std::vector<CheckedMember>& checked) const {
   std::vector<std::string> result;
-  if (const auto* integrations = dynamic_cast<const Integrations*>(task_.get()))
+  if (const auto* integrations = dynamic_cast<const Integrations*>(task_.get())) {
     result = warnings_on(*integrations, checked);
+    std::ranges::move(doubts_of_drifts(model_, run_.specialisation.invariant_names,
+                                       integrations->largest_drifts(rows), settings_.rtol),
+                      std::back_inserter(result));
+  }
   if (const auto* indicators = dynamic_cast<const Indicators*>(task_.get()))
     result = warnings_on(*indicators);
   if (std::string unwatched = unwatched_parts(model_, scene_); !unwatched.empty())

@@ -51,8 +51,10 @@ class SweepStudy {
   /// \param rows  of all points
   std::vector<CheckedMember> check(const std::vector<PointResult>& rows) const;
   /// What is in doubt of the results: sentences.
+  /// \param rows  of all points, or of none
   /// \param checked  of `check`, where it could be made
-  std::vector<std::string> warnings(const std::vector<CheckedMember>& checked) const;
+  std::vector<std::string> warnings(const std::vector<PointResult>& rows,
+                                    const std::vector<CheckedMember>& checked) const;
 
  private:
   std::unique_ptr<SweepTask> task_of(const StudyRequest& asked) const;

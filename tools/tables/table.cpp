@@ -82,7 +82,7 @@ void need(bool there, const char* library, const char* package) {
 
 Choices choices_of(const std::vector<Status>& statuses) {
   Choices choices;
-  for (int i = 0; i <= static_cast<int>(Status::stopped); ++i)
+  for (int i = 0; i <= static_cast<int>(Status::at_jump); ++i)
     choices.words.push_back(to_string(static_cast<Status>(i)));
   for (const Status status : statuses) choices.rows.push_back(static_cast<int>(status));
   return choices;

@@ -1,12 +1,14 @@
 // The method of Taylor series in its three forms: table-driven, compiled, interpreted.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <new>
 
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
-#include "runtime/program/undefined_sign.hpp"
+#include "runtime/undefined_motion.hpp"
 #include "tests/bundled_cases.hpp"
 #include "tests/codegen/run/ensemble_forms.hpp"
 #include "tests/codegen/run/taylor_forms.hpp"
@@ -121,8 +123,53 @@ TEST(Taylor, TheSignOfZeroIsTakenAllAlongWhereTheMotionStays) {
     inputs.resize(s.rhs.inputs.size(), t);
     return inputs;
   };
-  EXPECT_TRUE(takes_sign_of_zero(s.rhs, at(0, 0), at(0, 2)));
-  EXPECT_FALSE(takes_sign_of_zero(s.rhs, at(1, 0), at(-1, 2)));
+  const UndefinedMotion undefined(s.rhs);
+  EXPECT_FALSE(undefined.why(Status::ok, at(0, 0), at(0, 2)).empty());
+  EXPECT_EQ(undefined.why(Status::ok, at(1, 0), at(-1, 2)), "");
+}
+
+TEST(Taylor, WhatLeadsBackToAJumpFromBothSidesGoesNoFurther) {
+  const auto why = [](const char* rate, Status status) {
+    const Specialisation s = specialised(equations({{"x", rate}}));
+    const UndefinedMotion undefined(s.rhs);
+    const auto at = [&](double x, double t) {
+      std::vector<double> inputs = {x};
+      inputs.resize(s.rhs.inputs.size(), t);
+      return inputs;
+    };
+    return undefined.why(status, at(0.5, 0), at(1e-16, 0.5));
+  };
+  EXPECT_NE(why("-sign(x)", Status::step_underflow), "");
+  EXPECT_EQ(why("-sign(x)", Status::max_steps), "");
+  EXPECT_EQ(why("-2 - sign(x)", Status::step_underflow), "");  // passes it
+  EXPECT_EQ(why("sign(x)", Status::step_underflow), "");       // leaves it
+}
+
+/// A long way, on which straight lines along the rates of either side would part.
+TEST(Taylor, WhatPassesEveryJumpGoesOnAlsoAfterALongTime) {
+  const Specialisation s = specialised(equations({{"x", "2 + sign(sin(x))"}}));
+  const UndefinedMotion undefined(s.rhs);
+  const auto at = [&](double x, double t) {
+    std::vector<double> inputs = {x};
+    inputs.resize(s.rhs.inputs.size(), t);
+    return inputs;
+  };
+  for (const double way : {1., 300., 1e3, 1077., 1e4, 1e6, -1e3})
+    for (const double zero : {M_PI, 2 * M_PI, 500 * M_PI})
+      EXPECT_FALSE(undefined.turns_back(at(zero - 1e-12, 1), at(zero + 1e-12, 1), way)) << way;
+}
+
+/// cos(t) is 1 among doubles up to t = 10^(-8).
+TEST(Taylor, AMotionThatBeginsAtADoubleZeroIsNoneThatStays) {
+  const Specialisation s = specialised(equations({{"x", "v"}, {"v", "-x"}, {"z", "sign(x - 1)"}}));
+  UndefinedSteps steps(s.rhs, {}, 60);
+  for (const double t : {0., 5e-9, 9e-9, 1e-4, 1e-2, 1., 6.})
+    steps.see(t, std::array{std::cos(t), -std::sin(t), -t}.data(), 3);
+  EXPECT_EQ(steps.why(), "");
+  UndefinedSteps resting(s.rhs, {}, 60);
+  for (const double t : {0., 5e-9, 9e-9, 1e-4, 1e-2, 1., 6.})
+    resting.see(t, std::array{1., 0., -t}.data(), 3);
+  EXPECT_NE(resting.why(), "");
 }
 
 /// A rate that is another state as it is must not see that state's next coefficient, in whatever

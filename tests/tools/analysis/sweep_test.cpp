@@ -6,11 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "tests/folder.hpp"
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/sweep/indicators.hpp"
 #include "tools/analysis/sweep/integrations.hpp"
 #include "tools/analysis/sweep/lyapunov.hpp"
 
@@ -103,6 +108,36 @@ TEST(Sweep, WhatWasKeptOfAnotherSweepIsRefused) {
   EXPECT_THROW(sweep_over(task, alone, options, [](const auto&) {}), RequestError);
   options.restart = true;
   EXPECT_TRUE(sweep_over(task, alone, options, [](const auto&) {}).complete);
+}
+
+/// Whatever is done at the points, results of other steps are no part of this sweep.
+TEST(Sweep, FollowsFromAllThatSteersTheMethod) {
+  const Line row;
+  const Model& model = row.oscillator.model;
+  const Method& method = *find_method("gauss4");
+  const std::vector<std::function<std::string(const Settings&)>> tasks = {
+      [&](const Settings& settings) {
+        return Integrations(row.run, row.places, method, settings, 4).fingerprint();
+      },
+      [&](const Settings& settings) {
+        return LyapunovExponents(model, row.scene, row.run, row.places, method, settings)
+            .fingerprint();
+      },
+      [&](const Settings& settings) {
+        return Indicators(model, row.scene, row.run, row.places, method, settings).fingerprint();
+      }};
+  const auto other = [&](auto Settings::*member, auto value) {
+    Settings settings = row.settings;
+    settings.*member = value;
+    return settings;
+  };
+  std::set<std::string> seen;
+  for (const auto& fingerprint : tasks)
+    for (const Settings& settings :
+         {row.settings, other(&Settings::fixed_step, 0.5), other(&Settings::max_steps, 77ULL),
+          other(&Settings::rtol, 1e-5), other(&Settings::atol, 1e-5),
+          other(&Settings::duration, 77.)})
+      EXPECT_TRUE(seen.insert(fingerprint(settings)).second);
 }
 
 /// What was kept of a sweep with other values, or other lets, is no part of this one.

@@ -1,6 +1,8 @@
 // A scene without a duration is good for all that needs no end of a run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/tools/program.hpp"
 
 namespace casimir::test {
@@ -28,6 +30,15 @@ TEST(NoDuration, ProofsHeadersAndSectionsDoNotNeedIt) {
   const Outcome section = run_in(
       folder, {"section", "-", "--orbits", "1", "--points", "2", "--output", "s.csv"}, kText);
   EXPECT_EQ(section.status, 0) << section.err;
+}
+
+TEST(NoDuration, OfNoTimeTheFileHasTheStart) {
+  const Folder folder;
+  const std::string file = folder.write("top.toml", kText);
+  ASSERT_EQ(run_in(folder, {"integrate", file, "--duration", "0", "--output", "o.csv"}).status, 0);
+  const std::string text = file_text(folder.path() / "o.csv");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+  EXPECT_NE(text.find("\n0,1,0.5,"), std::string::npos) << text;
 }
 
 TEST(NoDuration, IntegrationSaysWhereItIsMissing) {

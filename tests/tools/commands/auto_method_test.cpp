@@ -154,6 +154,85 @@ TEST(AutoMethod, WhereTheSignOfZeroIsTakenAllAlongThereIsNoMotion) {
   }
 }
 
+TEST(AutoMethod, WhereDryFrictionHoldsABodyThereIsNoSolution) {
+  const Folder folder;
+  const auto scene = [&](const char* friction) {
+    folder.write("a.toml", std::string("[phase_space]\nvariables = [\"x\", \"v\"]\n[equations]\n"
+                                       "x = \"v\"\nv = \"-x - ") +
+                               friction +
+                               "*sign(v)\"\n[[scene]]\nname = \"default\"\n"
+                               "initial = { x = \"1\", v = \"0\" }\nduration = \"20\"\n");
+  };
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{}, {"--method", "dop853"}, {"--digits", "20"}}) {
+    std::vector<std::string> command = {"integrate", "./a.toml", "--json"};
+    command.insert(command.end(), how.begin(), how.end());
+    scene("3/10");  // it turns at 1, -2/5 and -1/5, where friction is stronger
+    const Outcome held = run_in(folder, command);
+    EXPECT_EQ(held.status, 5) << held.err;
+    EXPECT_EQ(held.json().at("status"), "at_jump");
+    EXPECT_NEAR(std::stod(held.json().at("stopped").at("time").get<std::string>()), 2 * M_PI, 1e-4);
+    scene("1/1000");  // goes on all the time
+    EXPECT_EQ(run_in(folder, command).status, 0);
+  }
+}
+
+// y' = x/sqrt(1 + x^2) is 1 and not 0 where x^2 is beyond all doubles.
+TEST(AutoMethod, ANumberBeyondAllDoublesIsNotDividedBySilently) {
+  const Folder folder;
+  const auto run = [&](const char* x, const char* dy, const std::vector<std::string>& how) {
+    folder.write("a.toml", std::string("[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\n"
+                                       "x = \"0\"\ny = \"") +
+                               dy + "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"" + x +
+                               "\", y = \"0\" }\nduration = \"2\"\n");
+    std::vector<std::string> command = {"integrate", "./a.toml", "--json"};
+    command.insert(command.end(), how.begin(), how.end());
+    return run_in(folder, command);
+  };
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{}, {"--method", "dop853"}, {"--method", "radau9"}}) {
+    const Outcome wrong = run("10^200", "x/sqrt(1 + x^2)", how);
+    EXPECT_EQ(wrong.status, 5);
+    EXPECT_EQ(wrong.json().at("status"), "non_finite");
+    EXPECT_EQ(run("10^100", "x/sqrt(1 + x^2)", how).status, 0);
+    EXPECT_EQ(run("1000", "1/(1 + exp(x))", how).status, 0);  // 0 to all digits
+  }
+  const Outcome right = run("10^200", "x/sqrt(1 + x^2)", {"--digits", "20"});
+  EXPECT_EQ(right.json().at("state").at("y"), "2");
+}
+
+// For a time, or for an angle.
+TEST(AutoMethod, WhereTheEquationsHaveNoValueForATimeThereIsNoMotion) {
+  const Folder folder;
+  const auto status = [&](const std::string& dx, const std::string& dy,
+                          const std::vector<std::string>& how) {
+    folder.write("a.toml",
+                 "[phase_space]\nvariables = [\"x\", \"y\"]\ntime = \"t\"\n[equations]\nx = \"" +
+                     dx + "\"\ny = \"" + dy +
+                     "\"\n[[scene]]\nname = \"default\"\n"
+                     "initial = { x = \"0\", y = \"0\" }\nduration = \"3\"\n");
+    std::vector<std::string> command = {"integrate", "./a.toml"};
+    command.insert(command.end(), how.begin(), how.end());
+    return run_in(folder, command).status;
+  };
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{}, {"--method", "dop853"}, {"--digits", "20"}}) {
+    EXPECT_EQ(status("abs(t - 1) + t - 1", "1 + sign(x)", how), 5);  // x is 0 up to t = 1
+    EXPECT_EQ(status("t", "1 + sign(x)", how), 0);
+    const bool begins_there = how.empty() || how[0] != "--digits";
+    EXPECT_EQ(status("0", "1 + atan2(x, 2*x)", how), 5);
+    if (begins_there) {
+      EXPECT_EQ(status("1", "1 + atan2(x, 2*x)", how), 0);
+    }
+  }
+  folder.write("e.csv", "x\n0\n1\n");
+  ASSERT_EQ(status("0", "1 + sign(x)", {}), 5);
+  const Outcome members =
+      run_in(folder, {"integrate", "./a.toml", "--ensemble", "e.csv", "--json"});
+  EXPECT_EQ(members.status, 5);
+  EXPECT_NE(members.out.find("at_jump"), std::string::npos) << members.out;
+}
+
 TEST(AutoMethod, WithoutACompilerItIsTaylorSeriesAgain) {
   const Folder cache;
   const auto run =

@@ -326,6 +326,27 @@ TEST(DigitsOf, KinksAndJumpsThatDoublesDoNotSee) {
   EXPECT_EQ(none.json().at("state").at("y"), "0.111111111111111111111111111111");
 }
 
+/// The integral is a number that doubles have, but not as a normal one.
+TEST(DigitsOf, AnIntegralBelowTheNormalDoubles) {
+  const Folder folder;
+  folder.write("a.toml", R"toml(
+[phase_space]
+variables = ["x", "y"]
+[equations]
+x = "-y"
+y = "x"
+[integrals]
+R = "x^2 + y^2"
+[[scene]]
+name = "default"
+initial = { x = "3/10^161", y = "4/10^161" }
+duration = "1"
+)toml");
+  const Outcome outcome = run_in(folder, {"integrate", "./a.toml", "--digits", "20", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("2.5e-321"), std::string::npos) << outcome.out;
+}
+
 TEST(DigitsOf, APartThatCancelsIsWarnedOf) {
   const Outcome outcome = two_equations("sqrt(x)^2 - 2", "0", "x = \"1\", y = \"0\"");
   ASSERT_EQ(outcome.status, 0) << outcome.err;

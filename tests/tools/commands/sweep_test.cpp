@@ -270,6 +270,30 @@ TEST(Sweep, GoesOnAfterAKill) {
   EXPECT_TRUE(file_text(folder.path() / "killed.csv") == file_text(folder.path() / "whole.csv"));
 }
 
+TEST(Sweep, DoubtsWhatChangesAndIsNoIntegral) {
+  const Folder folder;
+  folder.write("a.toml", R"toml(
+hamiltonian = "(p^2 + q^2)/2"
+[phase_space]
+variables = ["q", "p"]
+canonical = true
+[integrals]
+F = "p^2"
+G = "(p^2 + q^2)^2"
+[[scene]]
+name = "default"
+initial = { q = "1", p = "0" }
+duration = "10"
+)toml");
+  const Outcome outcome =
+      run_in(folder, {"sweep", "./a.toml", "--over", "q=1/2:1:3", "--json", "--output", "s.csv"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string warnings = outcome.json().at("warnings").dump();
+  EXPECT_NE(warnings.find("F changes by 1.0e+00 of its size, and it is refuted"), std::string::npos)
+      << warnings;
+  EXPECT_EQ(warnings.find("G changes"), std::string::npos) << warnings;
+}
+
 TEST(Sweep, AnInterruptKeepsWhatIsDoneAndSaysSo) {
   const Folder folder;
   const pid_t child = start(sweep_arguments("200000", "s.csv"), folder);

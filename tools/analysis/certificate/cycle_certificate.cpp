@@ -12,6 +12,7 @@
 #include "codegen/optimise/differentiate.hpp"
 #include "codegen/optimise/lower.hpp"
 #include "codegen/specialise.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "runtime/trace_check.hpp"
 #include "runtime/validated/flow_series.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
@@ -335,7 +336,7 @@ std::optional<CycleCertificate> certify_cycle(const std::string& of_case,
     const BallMatrix z = system.middle();
     for (const double radius : {0x1p-33, 0x1p-30, 0x1p-26}) {
       certificate.radius = traced_text(radius);
-      const ValidatedProblem problem = system.problem(cln::rational(cln::cl_DF(radius)));
+      const ValidatedProblem problem = system.problem(exact_number(radius));
       certificate.box = traced_run(problem);
       TraceCheckSettings settings;
       settings.derivatives = true;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "runtime/certificate/hex_float.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "symbolic/case/limits.hpp"
 #include "tools/analysis/certificate/run_certificate.hpp"
 #include "tools/analysis/error.hpp"
@@ -52,8 +53,7 @@ double double_of(const std::string& text) {
   const cln::cl_RA exact = traced_number(text);
   if (cln::zerop(exact)) return 0;
   const double value = cln::double_approx(exact);
-  if (!(std::abs(value) < kMost && std::abs(value) > 1 / kMost) ||
-      cln::rational(cln::cl_DF(value)) != exact)
+  if (!(std::abs(value) < kMost && std::abs(value) > 1 / kMost) || exact_number(value) != exact)
     throw HorseshoeRefuted{"a number of an h-set is no double of a moderate size"};
   return value;
 }

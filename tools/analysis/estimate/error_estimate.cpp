@@ -445,11 +445,12 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
                                              growth * kRoundoff
                                        : estimate_without_repeat(growth, settings, trajectory));
   if (repeated) {
-    const double rounding =
-        rounding_of_rates(run, compiled.module, neighbours.better(), end_sizes(run, trajectory));
+    const auto [rounding, overflow] =
+        error_of_rates(run, compiled.module, neighbours.better(), end_sizes(run, trajectory));
+    trust.overflow = overflow;
     trust.error_estimate += std::min(rounding * growth, std::max(rounding, 1.));
     trust.error_estimate =
-        std::max({trust.error_estimate, least_of_rounding(growth, settings, trajectory),
+        std::max({trust.error_estimate, overflow, least_of_rounding(growth, settings, trajectory),
                   least_of_equal_steps(growth, settings, trajectory, neighbours.better())});
   }
   if (repeated && settings.sample_every > 0)

@@ -18,6 +18,8 @@ struct ErrorEstimate {
   /// The same of the samples, where they were asked for: on the way the state may be off by more
   /// than at the end, and methods have formulas of their own between their steps.
   std::optional<double> samples_error;
+  /// What numbers within the equations that are beyond all doubles do to some state, up to 1.
+  double overflow = 0;
   bool unconfirmed = false;    ///< a run with a tighter tolerance fails: there is no estimate
   bool beyond_double = false;  ///< rounding alone spoils all but a few digits, at the end or before
   /// Up to when rounding leaves six digits, where it does not to the end.

@@ -12,6 +12,7 @@
 #include "codegen/optimise/differentiate.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "runtime/reference.hpp"
 #include "runtime/validated_run.hpp"
 #include "symbolic/algebra/number_text.hpp"
@@ -76,8 +77,7 @@ EndState own_run(const PreparedScene& run, const ReferenceOptions& options) {
   const std::vector<cln::cl_R> parameters(values.begin() + n, values.end() - 1);
   // A duration from the command line is the double that the integrators get.
   const bool own = rounded(values.back()) == run.duration;
-  const cln::cl_R duration =
-      own ? cln::cl_R(values.back()) : cln::cl_R(cln::rational(cln::cl_DF(run.duration)));
+  const cln::cl_R duration = own ? cln::cl_R(values.back()) : cln::cl_R(exact_number(run.duration));
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(options.longest));
   bool out_of_time = false;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -30,14 +32,19 @@ bool only_sums_and_products(const Program& program) {
   });
 }
 
+/// The states, the parameters and the time.
+std::vector<double> inputs_of(const PreparedScene& run, double t, std::vector<double> x) {
+  x.insert(x.end(), run.parameters.begin(), run.parameters.end());
+  x.push_back(t);
+  return x;
+}
+
 /// The rates in double less the true ones, at a state; nothing where these have no value.
 std::optional<std::vector<double>> differences(const PreparedScene& run,
                                                const std::vector<double>& rates, double t,
                                                const std::vector<double>& x) {
   std::vector<BigFloat> inputs;
-  for (const double value : x) inputs.push_back(exactly(value));
-  for (const double value : run.parameters) inputs.push_back(exactly(value));
-  inputs.push_back(exactly(t));
+  for (const double value : inputs_of(run, t, x)) inputs.push_back(exactly(value));
   try {
     const std::vector<BigFloat> truth = evaluate(run.specialisation.rhs, inputs);
     std::vector<double> result;
@@ -46,6 +53,21 @@ std::optional<std::vector<double>> differences(const PreparedScene& run,
     return result;
   } catch (const std::domain_error&) {
     return std::nullopt;
+  }
+}
+
+/// Whether a number on the way to the rates is beyond all doubles, as x^2 in x/sqrt(1 + x^2) is
+/// at 10^200, whose quotient is then 0.
+bool goes_beyond_doubles(const PreparedScene& run, double t, const std::vector<double>& x) {
+  Program lines = run.specialisation.rhs;
+  lines.outputs.resize(lines.code.size());
+  std::iota(lines.outputs.begin(), lines.outputs.end(), 0);
+  lines.output_names.assign(lines.outputs.size(), "");
+  try {
+    return std::ranges::any_of(evaluate(lines, inputs_of(run, t, x)),
+                               [](double value) { return std::isinf(value); });
+  } catch (const std::domain_error&) {
+    return false;
   }
 }
 
@@ -60,13 +82,14 @@ bool has_rates(const Module& module, double t, const std::vector<double>& x,
   return std::ranges::all_of(x, is_finite) && std::ranges::all_of(rates, is_finite);
 }
 
-double rounding_of_rates(const PreparedScene& run, const Module& module,
-                         const Trajectory& trajectory, const std::vector<double>& sizes) {
-  if (only_sums_and_products(run.specialisation.rhs)) return 0;
+ErrorOfRates error_of_rates(const PreparedScene& run, const Module& module,
+                            const Trajectory& trajectory, const std::vector<double>& sizes) {
+  if (only_sums_and_products(run.specialisation.rhs)) return {};
   const Precision precision(kBitsOfRates);
   const double* const parameters = run.parameters.empty() ? nullptr : run.parameters.data();
   const std::size_t n = sizes.size();
-  std::vector<double> rates(n), largest(n), worst(n), sum(n);
+  std::vector<double> rates(n), largest(n), worst(n), sum(n), own(n);
+  std::vector<bool> beyond(n);
   for (std::size_t k = 0; k + 1 < trajectory.samples.size(); ++k) {
     const double t = trajectory.sample_times[k], step = trajectory.sample_times[k + 1] - t;
     const std::vector<double>& x = trajectory.samples[k];
@@ -74,14 +97,24 @@ double rounding_of_rates(const PreparedScene& run, const Module& module,
     const auto off = differences(run, rates, t, x);
     if (!off) continue;
     for (std::size_t i = 0; i < n; ++i) {
-      largest[i] = std::max({largest[i], std::abs(rates[i]), std::abs(rates[i] - (*off)[i])});
+      const double larger = std::max(std::abs(rates[i]), std::abs(rates[i] - (*off)[i]));
+      largest[i] = std::max(largest[i], larger);
+      own[i] = std::max(own[i], std::abs(x[i]));
+      // What is below the normal doubles is 0 by right.
+      const bool other =
+          larger > std::numeric_limits<double>::min() && std::abs((*off)[i]) > larger / 2;
+      beyond[i] = beyond[i] || (other && goes_beyond_doubles(run, t, x));
       worst[i] = std::max(worst[i], std::abs((*off)[i]));
       sum[i] += (*off)[i] * step;
     }
   }
-  double error = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    if (worst[i] > kKept * largest[i]) error = std::max(error, std::abs(sum[i]) / sizes[i]);
+  ErrorOfRates error;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(worst[i] > kKept * largest[i])) continue;
+    error.rounding = std::max(error.rounding, std::abs(sum[i]) / sizes[i]);
+    if (beyond[i])
+      error.overflow = std::max(error.overflow, std::min(1., std::abs(sum[i]) / own[i]));
+  }
   return error;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/program/exact_number.hpp"
 #include "runtime/validated/rational_ends.hpp"
 
 namespace casimir::horseshoe {
@@ -50,7 +51,7 @@ cln::cl_RA spectral_radius_above(std::size_t nodes, const Arrows& given) {
   std::vector<cln::cl_RA> exact, image(nodes, 0);
   for (const double x : v) {
     if (!(x > 1e-200)) return 0;
-    exact.push_back(cln::rational(cln::cl_DF(x)));
+    exact.push_back(exact_number(x));
   }
   for (const auto& [from, to] : arrows) image[from] = image[from] + exact[to];
   cln::cl_RA least = image.empty() ? cln::cl_RA(0) : cln::cl_RA(image[0] / exact[0]);

@@ -9,6 +9,7 @@
 
 #include "codegen/optimise/lower.hpp"
 #include "codegen/specialise.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "runtime/validated/rational_ends.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
@@ -24,7 +25,7 @@ constexpr const char *kPlane = "casimir_plane", *kPlaneRate = "casimir_plane_rat
 
 /// The interval of all numbers within 2^-52 of the double, of its size: what was meant by it.
 RationalInterval near(double value) {
-  const cln::cl_RA middle = cln::rational(cln::cl_DF(value));
+  const cln::cl_RA middle = exact_number(value);
   const cln::cl_RA by = cln::abs(middle) / cln::expt(cln::cl_RA(2), 52);
   return {middle - by, middle + by};
 }

@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "codegen/optimise/scale_exponentials.hpp"
-#include "runtime/program/undefined_sign.hpp"
 #include "runtime/step/stiffness.hpp"
+#include "runtime/undefined_motion.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
@@ -199,17 +199,20 @@ class Judge {
   void run_it(SmoothnessWatch* smoothness = nullptr) {
     singular_.emplace(run_);
     parts_.emplace(model_, run_);
+    undefined_.emplace(run_.specialisation.rhs, run_.parameters, result_.settings.duration);
     Settings settings = result_.settings;
-    if (singular_->divides() || smoothness)
+    undefined_->see(settings.begin, run_.initial.data(), run_.initial.size());
+    if (singular_->divides() || smoothness || undefined_->looks())
       settings.watch = [&, smoothness](double t, const double* x) {
         singular_->see(t, x);
+        undefined_->see(t, x, run_.initial.size());
         if (smoothness) smoothness->see(t, x);
       };
     parts_->watch(settings);
-    if (smoothness || singular_->divides())
+    if (smoothness || singular_->divides() || undefined_->looks())
       settings.give_up = [this, smoothness, limit = settings.give_up] {
-        return singular_->goes_to_and_fro() || (smoothness && !smoothness->finding().empty()) ||
-               (limit && limit());
+        return singular_->goes_to_and_fro() || !undefined_->why().empty() ||
+               (smoothness && !smoothness->finding().empty()) || (limit && limit());
       };
     const auto run = [&] {
       try {
@@ -235,24 +238,21 @@ class Judge {
   /// Of code that is compiled in the middle of a run.
   double seconds_to_compile() const { return result_.later ? result_.later->seconds : 0; }
 
-  /// A motion that stays where a sign is taken of 0 is none.
   void refuse_undefined() {
     Trajectory& trajectory = result_.trajectory;
-    if (trajectory.status != Status::ok) return;
     const auto inputs = [&](double t, std::vector<double> x) {
       x.insert(x.end(), run_.parameters.begin(), run_.parameters.end());
       x.push_back(t);
       return x;
     };
-    try {
-      if (!takes_sign_of_zero(run_.specialisation.rhs, inputs(result_.settings.begin, run_.initial),
-                              inputs(trajectory.time, trajectory.state)))
-        return;
-    } catch (const std::domain_error&) {
-      return;  // an end where there is no value for another reason was reached by the run
-    }
-    trajectory.status = Status::non_finite;
-    trajectory.reason = kSignOfZero;
+    std::string why = undefined_ ? undefined_->why() : "";
+    if (why.empty())
+      why = UndefinedMotion(run_.specialisation.rhs)
+                .why(trajectory.status, inputs(result_.settings.begin, run_.initial),
+                     inputs(trajectory.time, trajectory.state));
+    if (why.empty()) return;
+    trajectory.status = Status::at_jump;
+    trajectory.reason = why;
   }
 
   void judge() {
@@ -269,6 +269,12 @@ class Judge {
     if (trajectory.status == Status::ok) doubt_small_states();
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings,
                            drifts.which.empty() ? trajectory : without_drifts(drifts.which));
+    constexpr double kWrongByOverflow = 1e-6;
+    if (trajectory.status == Status::ok && result_.trust.overflow > kWrongByOverflow) {
+      trajectory.status = Status::non_finite;
+      trajectory.reason =
+          "a number in the equations is beyond all doubles, and rates of the state come out wrong";
+    }
     if (trajectory.status != Status::ok || singular_->crossed() || costs_digits())
       result_.near_singular = singular_->finding();
   }
@@ -304,6 +310,7 @@ class Judge {
   const AssessmentOptions& options_;
   std::optional<NearSingular> singular_;
   std::optional<CancelledParts> parts_;
+  std::optional<UndefinedSteps> undefined_;
   /// While `auto` looks whether its first choice is right.
   std::shared_ptr<SmoothnessWatch*> smoothness_ = std::make_shared<SmoothnessWatch*>(nullptr);
   AssessedRun result_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/program/exact_number.hpp"
 #include "runtime/program/number.hpp"
 #include "runtime/program/operation.hpp"
 
@@ -81,7 +82,7 @@ std::optional<Program> with_moved_constants(Program program, std::mt19937_64& ra
     const double other = std::nextafter(value, towards);
     fixed[k] = other;
     program.code[k] = {Op::constant, static_cast<int>(program.constants.size())};
-    program.constants.push_back(cln::rational(cln::cl_DF(other)));
+    program.constants.push_back(exact_number(other));
     moved = true;
   };
   for (std::size_t k = 0; k < program.code.size(); ++k) {
@@ -94,8 +95,7 @@ std::optional<Program> with_moved_constants(Program program, std::mt19937_64& ra
         continue;
       }
       const cln::cl_RA exact = program.constants[static_cast<std::size_t>(line.a)];
-      const cln::cl_RA rounded =
-          std::isfinite(*fixed[k]) ? cln::rational(cln::cl_DF(*fixed[k])) : exact;
+      const cln::cl_RA rounded = std::isfinite(*fixed[k]) ? exact_number(*fixed[k]) : exact;
       if (exact != rounded) move(k, *fixed[k], exact > rounded ? infinity : -infinity);
       continue;
     }

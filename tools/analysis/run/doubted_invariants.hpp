@@ -14,8 +14,13 @@ namespace casimir {
 /// \param change  relative to its size
 std::string doubt_of_invariant(const std::string& name, double change, Verdict verdict);
 
-/// Sentences about the invariants that changed by much more in some member of an ensemble than the
-/// tolerance allows, and are not proved to be integrals.
+/// Sentences about the invariants that changed by much more than the tolerance allows, and are not
+/// proved to be integrals.
+/// \param drifts  the largest drift of each
+std::vector<std::string> doubts_of_drifts(const Model& model, const std::vector<std::string>& names,
+                                          const std::vector<double>& drifts, double rtol);
+
+/// The same of the members of an ensemble.
 std::vector<std::string> doubts_of_members(const Model& model,
                                            const std::vector<std::string>& names,
                                            const EnsembleResult& result, double rtol);

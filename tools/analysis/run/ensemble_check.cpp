@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "runtime/program/exact_number.hpp"
 #include "runtime/step/step_watch.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"

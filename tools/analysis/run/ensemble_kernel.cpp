@@ -11,6 +11,7 @@
 #include "codegen/lane_form.hpp"
 #include "runtime/step/step_watch.hpp"
 #include "runtime/uncompiled.hpp"
+#include "runtime/undefined_motion.hpp"
 
 namespace casimir {
 namespace {
@@ -109,6 +110,31 @@ EnsembleKernel ensemble_kernel(const PreparedScene& run, const Method& method, s
   }
   if (!result.lanes) result.module_for_thread = modules(run, method, result);
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return result;
+}
+
+EnsembleResult integrate_ensemble(const Ensemble& ensemble, const PreparedScene& run,
+                                  const EnsembleKernel& kernel, const Method& method,
+                                  const Settings& settings, int jobs) {
+  const Specialisation& s = run.specialisation;
+  EnsembleResult result =
+      kernel.lanes ? integrate_in_lanes(ensemble, *kernel.lanes, s.invariants, settings, jobs)
+                   : integrate_members(ensemble, kernel.module_for_thread, method, s.invariants,
+                                       settings, jobs);
+  const UndefinedMotion undefined(s.rhs);
+  for (std::size_t i = 0; i < result.members.size(); ++i) {
+    MemberResult& member = result.members[i];
+    if (member.state.empty()) continue;
+    const auto inputs = [&](const double* x, double t) {
+      std::vector<double> all(x, x + ensemble.states);
+      all.insert(all.end(), ensemble.values_of(i), ensemble.values_of(i) + ensemble.parameters);
+      all.push_back(t);
+      return all;
+    };
+    const std::string why = undefined.why(member.status, inputs(ensemble.state(i), settings.begin),
+                                          inputs(member.state.data(), member.time));
+    if (!why.empty()) member.status = Status::at_jump;
+  }
   return result;
 }
 

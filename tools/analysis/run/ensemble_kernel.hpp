@@ -26,4 +26,11 @@ struct EnsembleKernel {
 EnsembleKernel ensemble_kernel(const PreparedScene& run, const Method& method, std::size_t members,
                                bool lanes);
 
+/// Integrates an ensemble with its kernel. A member that has no motion, as UndefinedMotion finds
+/// out, has the status `at_jump`.
+/// \throws std::invalid_argument  as `integrate` does.
+EnsembleResult integrate_ensemble(const Ensemble& ensemble, const PreparedScene& run,
+                                  const EnsembleKernel& kernel, const Method& method,
+                                  const Settings& settings, int jobs = 0);
+
 }  // namespace casimir

@@ -21,6 +21,7 @@
 #include "runtime/exact/closed_form.hpp"
 #include "runtime/exact/polynomial_field.hpp"
 #include "runtime/methods.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "runtime/program/term_size.hpp"
 #include "runtime/step/step_watch.hpp"
 #include "runtime/taylor/program_layout.hpp"
@@ -49,14 +50,6 @@ CaseError without_duration(const Location& where, const std::string& scene) {
 
 std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int digits) {
   return evaluate(specialisation.start, {}, Arithmetic<cln::cl_F>(digits));
-}
-
-// Subnormal numbers, too, which CLN has not.
-cln::cl_RA exact_number(double number) {
-  constexpr int kBits = std::numeric_limits<double>::digits;
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(number, &exponent), kBits);
-  return cln::cl_I(static_cast<long>(mantissa)) * cln::expt(cln::cl_RA(2), exponent - kBits);
 }
 
 double rounded(const cln::cl_F& value) { return codegen::nearest<double>(cln::rational(value)); }

@@ -90,9 +90,6 @@ inline constexpr int kConstantDigits = 60;
 /// The numbers of a scene, as Specialisation::start lists them.
 std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int digits);
 
-/// The number that a finite double is.
-cln::cl_RA exact_number(double number);
-
 /// The nearest double.
 double rounded(const cln::cl_F& value);
 /// What is left of a number when its nearest double is taken away.

@@ -8,6 +8,7 @@
 
 #include "codegen/program_of.hpp"
 #include "runtime/evaluate.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/proof/exact_text.hpp"
 #include "tools/analysis/run/point_check.hpp"
@@ -67,9 +68,7 @@ std::pair<std::vector<double>, std::vector<double>> GridPoints::at(std::size_t p
 
 Scene GridPoints::scene_at(std::size_t point, const Model& model, const Scene& scene) const {
   const auto [state, parameters] = at(point);
-  const auto exact = [](double x) {
-    return GiNaC::ex(GiNaC::numeric(cln::rational(cln::cl_DF(x))));
-  };
+  const auto exact = [](double x) { return GiNaC::ex(GiNaC::numeric(exact_number(x))); };
   Scene placed = scene;
   for (const auto* targets : {&axes_, &lets_})
     for (const Target& target : *targets) {

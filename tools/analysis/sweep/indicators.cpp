@@ -7,11 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "codegen/emit_cpp.hpp"
 #include "codegen/specialise.hpp"
 #include "runtime/program/interpreter.hpp"
 #include "runtime/step/dense.hpp"
-#include "tools/analysis/proof/exact_text.hpp"
 #include "tools/analysis/sweep/deviations.hpp"
 #include "tools/analysis/verify.hpp"
 
@@ -193,13 +191,8 @@ std::vector<std::string> Indicators::columns() const {
 }
 
 std::string Indicators::fingerprint() const {
-  std::string text = fmt::format("indicators {} {} rtol {} atol {} duration {}\n", method_.name,
-                                 CASIMIR_VERSION, exact_text(settings_.rtol),
-                                 exact_text(settings_.atol), exact_text(settings_.duration));
-  for (const std::string& name : proved_) text += name + "\n";
-  text += emit_module(deviating_.specialisation);
-  for (const double x : deviating_.initial) text += exact_text(x) + " ";
-  for (const double p : deviating_.parameters) text += exact_text(p) + " ";
+  std::string text = "indicators " + run_fingerprint(deviating_, method_, settings_);
+  for (const std::string& name : proved_) text += "\n" + name;
   return text;
 }
 

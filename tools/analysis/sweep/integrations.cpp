@@ -1,14 +1,11 @@
 #include "tools/analysis/sweep/integrations.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
-#include "codegen/emit_cpp.hpp"
 #include "runtime/ensemble.hpp"
 #include "tools/analysis/error.hpp"
-#include "tools/analysis/proof/exact_text.hpp"
 
 namespace casimir {
 
@@ -31,15 +28,8 @@ std::vector<std::string> Integrations::columns() const {
 }
 
 std::string Integrations::fingerprint() const {
-  std::string text =
-      fmt::format("integrate {} {} rtol {} atol {}{} step {} duration {} max {}\n", method_.name,
-                  CASIMIR_VERSION, exact_text(settings_.rtol), exact_text(settings_.atol),
-                  asked_.atol ? "" : " in units of each start", exact_text(settings_.fixed_step),
-                  exact_text(settings_.duration), settings_.max_steps);
-  text += emit_module(run_.specialisation);
-  for (const double x : run_.initial) text += exact_text(x) + " ";
-  for (const double p : run_.parameters) text += exact_text(p) + " ";
-  return text;
+  return std::string("integrate ") + (asked_.atol ? "" : "atol in units of each start, ") +
+         run_fingerprint(run_, method_, settings_);
 }
 
 Ensemble Integrations::members(const std::vector<std::size_t>& points) const {
@@ -83,10 +73,7 @@ std::vector<PointResult> Integrations::run(const std::vector<std::size_t>& point
   settings.give_up = give_up;
   EnsembleResult done;
   try {
-    done = kernel_.lanes
-               ? integrate_in_lanes(ensemble, *kernel_.lanes, s.invariants, settings, threads)
-               : integrate_members(ensemble, kernel_.module_for_thread, method_, s.invariants,
-                                   settings, threads);
+    done = integrate_ensemble(ensemble, run_, kernel_, method_, settings, threads);
   } catch (const std::invalid_argument& problem) {
     throw RequestError(problem.what());
   }
@@ -104,6 +91,17 @@ std::vector<PointResult> Integrations::run(const std::vector<std::size_t>& point
     result.values.push_back(static_cast<double>(member.steps));
   }
   return results;
+}
+
+std::vector<double> Integrations::largest_drifts(const std::vector<PointResult>& rows) const {
+  const Specialisation& s = run_.specialisation;
+  std::vector<double> drifts(s.invariant_names.size());
+  for (const PointResult& row : rows) {
+    if (row.status != Status::ok) continue;
+    for (std::size_t i = 0; i < drifts.size(); ++i)
+      drifts[i] = std::max(drifts[i], row.values[1 + s.states.size() + i]);
+  }
+  return drifts;
 }
 
 }  // namespace casimir

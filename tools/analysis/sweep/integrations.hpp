@@ -29,6 +29,9 @@ class Integrations : public SweepTask {
   /// \param rows  what `run` gave for all points of the grid, in their order
   std::vector<CheckedMember> check(const std::vector<PointResult>& rows) const;
 
+  /// The largest drift of each invariant, at the points that reached the end.
+  std::vector<double> largest_drifts(const std::vector<PointResult>& rows) const;
+
   /// How many points one register holds.
   int lanes() const { return kernel_.lanes ? kernel_.lanes->lanes : 1; }
   /// Whether points may pass over what lies between the ends of a step: see `may_pass_over`.

@@ -1,12 +1,8 @@
 #include "tools/analysis/sweep/lyapunov.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
 
-#include "codegen/emit_cpp.hpp"
-#include "tools/analysis/proof/exact_text.hpp"
 #include "tools/analysis/sweep/deviations.hpp"
 
 namespace casimir {
@@ -31,13 +27,7 @@ std::vector<std::string> LyapunovExponents::columns() const {
 }
 
 std::string LyapunovExponents::fingerprint() const {
-  std::string text = fmt::format("exponents {} {} rtol {} atol {} duration {}\n", method_.name,
-                                 CASIMIR_VERSION, exact_text(settings_.rtol),
-                                 exact_text(settings_.atol), exact_text(settings_.duration));
-  text += emit_module(deviating_.specialisation);
-  for (const double x : deviating_.initial) text += exact_text(x) + " ";
-  for (const double p : deviating_.parameters) text += exact_text(p) + " ";
-  return text;
+  return "exponents " + run_fingerprint(deviating_, method_, settings_);
 }
 
 PointResult LyapunovExponents::follow(const Module& module, std::size_t point,

@@ -41,4 +41,9 @@ class SweepTask {
                                        const std::function<bool()>& give_up) const = 0;
 };
 
+/// What results follow from that are made by integrating this system so: its code, the values that
+/// are the same at all points, the method and all that steers it.
+std::string run_fingerprint(const PreparedScene& run, const Method& method,
+                            const Settings& settings);
+
 }  // namespace casimir

@@ -400,9 +400,7 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     const EnsembleKernel kernel = ensemble_kernel(run, by, count, true);
     const auto integrated = [&](Ensemble some) {
       scale_tolerances(asked, run, settings, some);
-      return kernel.lanes ? integrate_in_lanes(some, *kernel.lanes, s.invariants, settings, jobs)
-                          : integrate_members(some, kernel.module_for_thread, by, s.invariants,
-                                              settings, jobs);
+      return casimir::integrate_ensemble(some, run, kernel, by, settings, jobs);
     };
     result = settled([&] {
       return interrupt.told() ? in_parts(members, integrated, interrupt) : integrated(members);

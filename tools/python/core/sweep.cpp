@@ -80,7 +80,7 @@ py::object sweep(const Case& self, const std::string& scene, const std::string& 
       const bool complete = std::ranges::none_of(
           rows, [](const PointResult& row) { return row.status == Status::stopped; });
       const Names warnings =
-          study.warnings(complete ? study.check(rows) : std::vector<CheckedMember>{});
+          study.warnings(rows, complete ? study.check(rows) : std::vector<CheckedMember>{});
       const py::gil_scoped_acquire python;
       interrupt.raise();
       result = to_python(study, rows, warnings);

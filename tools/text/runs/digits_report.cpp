@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "runtime/evaluate.hpp"
+#include "runtime/program/exact_number.hpp"
 #include "runtime/program/term_size.hpp"
 #include "tools/show/notation.hpp"
 #include "tools/tables/table.hpp"
@@ -45,7 +46,7 @@ std::vector<double> term_sizes(const DigitsReport& report) {
 std::string drift_text(const PreciseInvariant& invariant, double size) {
   if (cln::zerop(invariant.change)) return "0";
   cln::cl_F scale = cln::abs(invariant.initial);
-  if (std::isfinite(size)) scale = cln::max(scale, cln::cl_float(cln::cl_DF(size), scale));
+  if (std::isfinite(size)) scale = cln::max(scale, cln::cl_float(exact_number(size), scale));
   if (cln::zerop(scale)) return decimal_text(invariant.change, 2);
   return decimal_text(invariant.change / scale, 2);
 }

@@ -120,6 +120,8 @@ std::string advice(Status status) {
       return "tighten --tolerance, or try another --method";
     case Status::stopped:
       return "raise --time-limit";
+    case Status::at_jump:
+      return "end the run before it, or take a smooth function for the sign, as tanh(1000*v)";
     default:
       return "";
   }

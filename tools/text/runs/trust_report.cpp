@@ -63,12 +63,14 @@ std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_s
   }
   if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
     const bool by_rounding = trust.input_rounding > trust.error_estimate / 2;
-    warnings.push_back(fmt::format("the end state may be off by {:.0e} of its size{}",
-                                   trust.error_estimate,
-                                   by_rounding     ? ", since the numbers of the scene have to be "
-                                                     "rounded to double: --digits 30 keeps more of them"
-                                   : constant_step ? ": take a smaller --step"
-                                                   : ": tighten --tolerance"));
+    warnings.push_back(
+        fmt::format("the end state may be off by {:.0e} of its size{}", trust.error_estimate,
+                    trust.overflow > trust.error_estimate / 2
+                        ? ": a number in the equations is beyond all doubles"
+                    : by_rounding   ? ", since the numbers of the scene have to be "
+                                      "rounded to double: --digits 30 keeps more of them"
+                    : constant_step ? ": take a smaller --step"
+                                    : ": tighten --tolerance"));
   }
   constexpr double kMuchMore = 10, kRounding = 1e-14;
   if (trust.samples_error && !trust.unconfirmed &&
@@ -89,10 +91,11 @@ RunWords words_of(const AssessedRun& judged, bool interrupted) {
     if (judged.near_singular) words.warnings.push_back(*judged.near_singular);
     return words;
   }
-  words.advice = judged.near_singular ? *judged.near_singular
-                 : trajectory.stiff   ? fmt::format("--method {}, or auto", kStiffMethod)
-                 : interrupted        ? "the run was interrupted: begin it again"
-                                      : advice(trajectory.status);
+  words.advice = trajectory.status == Status::at_jump ? advice(trajectory.status)
+                 : judged.near_singular               ? *judged.near_singular
+                 : trajectory.stiff ? fmt::format("--method {}, or auto", kStiffMethod)
+                 : interrupted      ? "the run was interrupted: begin it again"
+                                    : advice(trajectory.status);
   return words;
 }
 
