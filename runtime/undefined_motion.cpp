@@ -44,6 +44,10 @@ UndefinedMotion::UndefinedMotion(const Program& rhs) : rhs_(rhs), arguments_(rhs
   angles_ = angles.size() / 2;
   arguments_.outputs.insert(arguments_.outputs.end(), angles.begin(), angles.end());
   arguments_.output_names.assign(arguments_.outputs.size(), "");
+  // They are evaluated at every step; what comes behind the last of them is not needed.
+  int last = -1;
+  for (const int line : arguments_.outputs) last = std::max(last, line);
+  arguments_.code.resize(static_cast<std::size_t>(last + 1));
 }
 
 std::string UndefinedMotion::why(Status status, const std::vector<double>& start,
@@ -70,11 +74,9 @@ std::string UndefinedMotion::why(Status status, const std::vector<double>& start
   return {};
 }
 
-bool UndefinedMotion::turns_back(const std::vector<double>& start, const std::vector<double>& end,
+bool UndefinedMotion::turns_back(const std::vector<double>& before,
+                                 const std::vector<double>& behind, const std::vector<double>& end,
                                  double way) const {
-  if (signs_.empty()) return false;
-  const std::vector<double> before = evaluate(arguments_, start),
-                            behind = evaluate(arguments_, end);
   for (std::size_t k = 0; k < signs_.size(); ++k)
     if (before[k] * behind[k] <= 0 && leads_back_to_jump(signs_[k], end, way)) return true;
   return false;
@@ -136,21 +138,22 @@ void UndefinedSteps::see(double t, const double* x, std::size_t states) {
   now.insert(now.end(), parameters_.begin(), parameters_.end());
   now.push_back(t);
   try {
-    if (stays_undefined(now))
+    std::vector<double> values = evaluate(motion_.arguments(), now);
+    if (stays_undefined(now, values))
       why_ = kAllAlong;
-    else if (!last_.empty() && motion_.turns_back(last_, now, t - first_.back()))
+    else if (!last_.empty() && motion_.turns_back(last_, values, now, t - *begin_))
       why_ = reason_of(Status::at_jump);
+    last_ = std::move(values);
   } catch (const std::domain_error&) {
-    // There is no value for another reason, for which the run ends or which it passes.
+    last_.clear();  // no value for another reason, for which the run ends or which it passes
   }
-  if (first_.empty()) first_ = now;
-  last_ = std::move(now);
+  if (!begin_) begin_ = t;
 }
 
 /// A motion that begins at a zero of order 2 may be rounded to it for a step or two.
-bool UndefinedSteps::stays_undefined(const std::vector<double>& now) {
+bool UndefinedSteps::stays_undefined(const std::vector<double>& now,
+                                     const std::vector<double>& values) {
   constexpr double kPartOfRun = 0x1p-12;
-  const std::vector<double> values = evaluate(motion_.arguments(), now);
   since_.resize(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (values[k] != 0)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,10 +35,11 @@ class UndefinedMotion {
 
   /// Whether a sign is another one, or 0, at the end of a step, and the rates on both sides lead
   /// back from there.
+  /// \param before, behind  values of `arguments` at the start of the step and at its end
   /// \param way  the time since the run began
   /// \throws std::domain_error  where something has no value.
-  bool turns_back(const std::vector<double>& start, const std::vector<double>& end,
-                  double way) const;
+  bool turns_back(const std::vector<double>& before, const std::vector<double>& behind,
+                  const std::vector<double>& end, double way) const;
   /// The same of a run: whether it has no value from the one place to the other.
   bool is_undefined_along(const std::vector<double>& start, const std::vector<double>& end) const;
 
@@ -65,12 +67,13 @@ class UndefinedSteps {
   const std::string& why() const { return why_; }
 
  private:
-  bool stays_undefined(const std::vector<double>& now);
+  bool stays_undefined(const std::vector<double>& now, const std::vector<double>& values);
 
   UndefinedMotion motion_;
   std::vector<double> parameters_;
   double duration_;
-  std::vector<double> first_, last_;        ///< inputs, where the run begins and at the last step
+  std::optional<double> begin_;             ///< of the run
+  std::vector<double> last_;                ///< arguments at the end of the last step
   std::vector<std::vector<double>> since_;  ///< of each argument: where it became 0, or empty
   std::string why_;
 };
