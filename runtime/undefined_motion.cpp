@@ -45,9 +45,9 @@ UndefinedMotion::UndefinedMotion(const Program& rhs) : rhs_(rhs), arguments_(rhs
   arguments_.outputs.insert(arguments_.outputs.end(), angles.begin(), angles.end());
   arguments_.output_names.assign(arguments_.outputs.size(), "");
   // They are evaluated at every step; what comes behind the last of them is not needed.
-  int last = -1;
-  for (const int line : arguments_.outputs) last = std::max(last, line);
-  arguments_.code.resize(static_cast<std::size_t>(last + 1));
+  std::size_t lines = 0;
+  for (const int line : arguments_.outputs) lines = std::max(lines, std::size_t(line) + 1);
+  arguments_.code.resize(lines);
 }
 
 std::string UndefinedMotion::why(Status status, const std::vector<double>& start,
