@@ -110,8 +110,10 @@ class Search {
     return cancelled_digits(rhs_, state, problem_.start(wanted_).back(), wanted_ + kMoreDigits);
   }
 
-  /// A motion that stays where a sign jumps is none. By doubles: what is 0 among them is 0.
+  /// A motion that goes no further since a jump holds it. (That it is undefined for a time each run
+  /// finds out to all its digits: differences that doubles do not see are not 0.)
   void refuse_at_jump() {
+    if (best_.run.status == Status::ok) return;
     const std::vector<cln::cl_R> start = problem_.start(wanted_);
     const auto approximate = [](const cln::cl_R& x) {
       const double result = cln::double_approx(x);

@@ -326,6 +326,13 @@ TEST(DigitsOf, KinksAndJumpsThatDoublesDoNotSee) {
   EXPECT_EQ(none.json().at("state").at("y"), "0.111111111111111111111111111111");
 }
 
+/// The difference is 0 among doubles, all the time.
+TEST(DigitsOf, ASignThatDoublesDoNotSee) {
+  const Outcome outcome = two_equations("sign(y - 1)", "0", "x = \"0\", y = \"1 + 10^(-20)\"");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.json().at("state").at("x"), "1");
+}
+
 /// The integral is a number that doubles have, but not as a normal one.
 TEST(DigitsOf, AnIntegralBelowTheNormalDoubles) {
   const Folder folder;

@@ -112,7 +112,7 @@ ErrorOfRates error_of_rates(const PreparedScene& run, const Module& module,
   for (std::size_t i = 0; i < n; ++i) {
     if (!(worst[i] > kKept * largest[i])) continue;
     error.rounding = std::max(error.rounding, std::abs(sum[i]) / sizes[i]);
-    if (beyond[i])
+    if (beyond[i] && sum[i] != 0)
       error.overflow = std::max(error.overflow, std::min(1., std::abs(sum[i]) / own[i]));
   }
   return error;
