@@ -175,20 +175,23 @@ ex Model::rate(const ex& f) const {
   return GiNaC::add(terms);
 }
 
+GiNaC::exmap Model::parameter_values(const Scene& scene) const {
+  GiNaC::exmap numbers, result;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (!function_name(parameters[i].get_name())) numbers[parameters[i]] = scene.parameters[i];
+  result = numbers;
+  // The body of a function is written with the other parameters.
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (function_name(parameters[i].get_name()))
+      result[parameters[i]] = substituted(scene.parameters[i], numbers, limits);
+  return result;
+}
+
 GiNaC::ex Model::at_parameters(const GiNaC::ex& expression, const Scene& scene) const {
-  GiNaC::exmap values;
-  bool functions = false;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    values[parameters[i]] = scene.parameters[i];
-    functions = functions || function_name(parameters[i].get_name());
-  }
-  ex result = substituted(expression, values, limits);
-  if (!functions) return result;
-  for (const GiNaC::symbol& parameter : parameters) {
-    const auto function = function_name(parameter.get_name());
-    if (function && result.has(parameter))
+  const ex result = substituted(expression, parameter_values(scene), limits);
+  for (const GiNaC::symbol& parameter : parameters)
+    if (function_name(parameter.get_name()) && result.has(parameter))
       throw function_not_given(scene.name, parameter.get_name());
-  }
   return result;
 }
 

@@ -194,6 +194,8 @@ struct Model {
   /// df/dt along the flow, with the explicit dependence on time; not expanded.
   GiNaC::ex rate(const GiNaC::ex& f) const;
 
+  /// What a scene has in place of each parameter: exact numbers, and functions with these in them.
+  GiNaC::exmap parameter_values(const Scene& scene) const;
   /// `expression` with every parameter replaced by the scene's exact value.
   GiNaC::ex at_parameters(const GiNaC::ex& expression, const Scene& scene) const;
 };

@@ -83,7 +83,7 @@ class SceneReader {
     return scene;
   }
 
-  /// What the arbitrary functions are in a scene, with the values of its parameters put in.
+  /// What the arbitrary functions are in a scene.
   void give_functions(const std::vector<Entry>& entries, Scene& scene) const {
     std::vector<std::string> known;
     for (const GiNaC::symbol& parameter : model_.parameters)
@@ -99,20 +99,19 @@ class SceneReader {
         const auto function = function_name(model_.parameters[i].get_name());
         if (function && function->name == given->name)
           scene.parameters[i] = read_function(
-              *function, text, scene, scene.lost_of_functions[model_.parameters[i].get_name()]);
+              *function, text, scene.lost_of_functions[model_.parameters[i].get_name()]);
       }
     }
   }
 
-  /// An expression over the arguments of a function, which hide parameters of the same name.
+  /// An expression over the parameters, which may change, and the arguments of a function, which
+  /// hide parameters of the same name.
   /// \param lost  what of it does not show
-  ex read_function(const FunctionName& function, const Text& text, const Scene& scene,
-                   std::vector<ex>& lost) const {
+  ex read_function(const FunctionName& function, const Text& text, std::vector<ex>& lost) const {
     NameTable names(model_.limits);
-    for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
-      const std::string parameter = model_.parameters[i].get_name();
-      if (!function_name(parameter)) names.add(parameter, measured(scene.parameters[i]));
-    }
+    for (const GiNaC::symbol& parameter : model_.parameters)
+      if (!function_name(parameter.get_name()))
+        names.add(parameter.get_name(), Quantity::symbol(parameter));
     for (const auto& [parameter, value] : model_.fixed) names.add(parameter.value, measured(value));
     std::vector<GiNaC::symbol> arguments;
     for (const std::string& argument : function.arguments) {
@@ -189,9 +188,7 @@ class SceneReader {
   }
 
   GiNaC::exmap point_of(const Scene& scene) const {
-    GiNaC::exmap point;
-    for (std::size_t i = 0; i < model_.parameters.size(); ++i)
-      point[model_.parameters[i]] = scene.parameters[i];
+    GiNaC::exmap point = model_.parameter_values(scene);
     for (std::size_t i = 0; i < model_.variables.size(); ++i)
       point[model_.variables[i]] = scene.initial[i];
     return point;

@@ -138,8 +138,31 @@ ex GivenFunctions::put(const ex& expression) const {
   return substituted(expression, values, limits);
 }
 
+std::vector<ex> lost_of_functions_in(const ex& expression, const GiNaC::exmap& values,
+                                     const std::map<std::string, std::vector<ex>>& lost,
+                                     const Limits& limits) {
+  std::vector<ex> result;
+  if (lost.empty()) return result;
+  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+    if (!GiNaC::is_exactly_a<GiNaC::function>(*part)) continue;
+    const auto call = as_arbitrary(GiNaC::ex_to<GiNaC::function>(*part));
+    if (!call) continue;
+    const auto own = lost.find(call->function.get_name());
+    const auto given = values.find(call->function);
+    if (own == lost.end() || given == values.end()) continue;
+    GiNaC::exmap arguments;
+    for (std::size_t k = 0; k < call->arguments.size(); ++k)
+      arguments[given->second.op(k)] = call->arguments[k];
+    for (const ex& one : own->second) result.push_back(substituted(one, arguments, limits));
+  }
+  return result;
+}
+
 void GivenFunctions::put_into(ex& expression, std::vector<ex>& domain) const {
-  for (const ex& part : lost_in_substitution(expression, values, limits, VanishingTerms::counted)) {
+  std::vector<ex> parts = lost_in_substitution(expression, values, limits, VanishingTerms::counted);
+  for (const ex& part : lost_of_functions_in(expression, values, lost, limits))
+    parts.push_back(put(part));
+  for (const ex& part : parts) {
     if (!complex_numbers && is_no_real_constant(part, limits.bits))
       throw ModelError(fmt::format("with the functions that are given, {} has no real value",
                                    printable(expression_text(expression), 80)));
@@ -190,6 +213,7 @@ std::pair<Model, Scene> in_scene(const Model& model, const Scene& scene) {
   GivenFunctions given{model.limits, {}, {}, model.complex_numbers};
   Scene own = scene;
   own.parameters.clear();
+  own.lost_of_functions.clear();
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
     const GiNaC::symbol& parameter = model.parameters[i];
     const auto function = function_name(parameter.get_name());
@@ -200,8 +224,14 @@ std::pair<Model, Scene> in_scene(const Model& model, const Scene& scene) {
     if (!GiNaC::is_a<GiNaC::lst>(scene.parameters[i]))
       throw function_not_given(scene.name, parameter.get_name());
     given.values[parameter] = scene.parameters[i];
+    const auto lost = scene.lost_of_functions.find(parameter.get_name());
+    if (lost != scene.lost_of_functions.end()) given.lost.insert(*lost);
   }
   return {with_functions(model, given), own};
+}
+
+Model model_in_scene(const Model& model, const Scene& scene) {
+  return has_arbitrary_functions(model) ? in_scene(model, scene).first : model;
 }
 
 ModelError function_not_given(const std::string& scene, const std::string& parameter) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,8 @@ struct GivenFunctions {
   GiNaC::exmap values;                                     ///< by the symbol of the function
   std::vector<std::pair<std::string, std::string>> texts;  ///< "U(r)" and "r^2 + r"
   bool complex_numbers = false;                            ///< as of the case
+  /// What they were written with and show no longer: see Scene::lost_of_functions.
+  std::map<std::string, std::vector<GiNaC::ex>> lost = {};
 
   /// An expression with these functions in place of the arbitrary ones.
   /// \throws TooLarge  beyond the limit `bits`
@@ -31,13 +34,22 @@ struct GivenFunctions {
   NamedExpression put(NamedExpression f) const;
 };
 
+/// What the functions that a scene gives were written with and show no longer, at every place of an
+/// expression where they stand: sqrt(q) for U(q) with U = sqrt(r)^2.
+/// \param values  of the functions, by their symbols
+/// \param lost    see Scene::lost_of_functions
+std::vector<GiNaC::ex> lost_of_functions_in(
+    const GiNaC::ex& expression, const GiNaC::exmap& values,
+    const std::map<std::string, std::vector<GiNaC::ex>>& lost, const Limits& limits);
+
 /// Different choices, simple ones: of degrees 1, 2 and 3, and a negative one.
 std::vector<GivenFunctions> function_choices(const Model& model);
 
-/// A case with the functions that a scene gives, and that scene, whose parameters are numbers
-/// alone.
+/// A case with the functions that a scene gives, and that scene, whose parameters are no functions.
 /// \throws ModelError  where the scene does not say what one of them is
 std::pair<Model, Scene> in_scene(const Model& model, const Scene& scene);
+/// The same case alone; one without arbitrary functions as it is.
+Model model_in_scene(const Model& model, const Scene& scene);
 
 /// The error that a scene lacks a function. \param parameter  as in the model, "U(r)"
 ModelError function_not_given(const std::string& scene, const std::string& parameter);

@@ -35,7 +35,7 @@ Solution solve(const Model& model, const Scene& scene, const SolveOptions& optio
     }
     run();
   };
-  solution.run_ = integrate_assessed(model, *solution.scene_, how);
+  solution.run_ = integrate_assessed(model, scene, *solution.scene_, how);
   // The end may be before the last step, and within one: see CancelledParts.
   const double end = std::abs(solution.run_.trajectory.time);
   while (solution.steps_.size() > 1 && std::abs(solution.steps_.back().time) > end)

@@ -366,7 +366,7 @@ int integrate_case(const IntegrateArguments& options) {
     const double part = span > 0 ? span / 1000 : 1;  // of no time the start alone
     how.sample_every = options.every > 0 ? options.every : part;
   }
-  AssessedRun judged = integrate_assessed(model, run, how);
+  AssessedRun judged = integrate_assessed(model, scene, run, how);
   const std::vector<std::string> of_variables = answer.judge(judged);
   RunWords words = words_of(judged, interrupted);
   words.warnings.insert(words.warnings.begin(), of_variables.begin(), of_variables.end());

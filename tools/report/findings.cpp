@@ -109,7 +109,7 @@ class Investigation {
     const PreparedScene run = prepare(model_, *result_.scene, code);
     AssessmentOptions how;
     how.time_limit = options_.time_limit > 0 ? left() : 0;
-    const AssessedRun judged = integrate_assessed(model_, run, how);
+    const AssessedRun judged = integrate_assessed(model_, *result_.scene, run, how);
     result_.motion_method = judged.method->name;
     result_.motion = motion_of(run, judged);
     if (judged.trajectory.status != Status::ok)

@@ -282,7 +282,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   std::vector<std::string> warnings =
       warnings_on(kernel, run, settings, checked, unwatched_parts(model, scene));
   for (std::string& sentence :
-       doubts_of_members(model, run.specialisation.invariant_names, result, settings.rtol))
+       doubts_of_members(model, scene, run.specialisation.invariant_names, result, settings.rtol))
     warnings.push_back(std::move(sentence));
   if (!off_constraints.empty()) warnings.insert(warnings.begin(), off_constraints);
   const EnsembleReport report{run, method, settings, kernel, result, checked, warnings};

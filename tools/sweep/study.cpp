@@ -115,7 +115,7 @@ std::vector<std::string> SweepStudy::warnings(const std::vector<PointResult>& ro
   std::vector<std::string> result;
   if (const auto* integrations = dynamic_cast<const Integrations*>(task_.get())) {
     result = warnings_on(*integrations, checked);
-    std::ranges::move(doubts_of_drifts(model_, run_.specialisation.invariant_names,
+    std::ranges::move(doubts_of_drifts(model_, scene_, run_.specialisation.invariant_names,
                                        integrations->largest_drifts(rows), settings_.rtol),
                       std::back_inserter(result));
   }

@@ -361,7 +361,7 @@ TEST(ErrorEstimate, SaysOfWhichStatesItSaysNothing) {
         "initial = { x = \"" +
         size + "\", y = \"1\", z = \"" + size + "\" }\nduration = \"10\"\n");
     const Scene& scene = model.scene("default");
-    return integrate_assessed(model, prepare(model, scene), {}).doubts;
+    return integrate_assessed(model, scene, prepare(model, scene), {}).doubts;
   };
   ASSERT_EQ(doubts_from("10^(-200)").size(), 1U);
   EXPECT_NE(doubts_from("10^(-200)")[0].find("nothing of x, z"), std::string::npos);
@@ -419,7 +419,7 @@ TEST(ErrorEstimate, TheRoundingOfAParameterIsMeasuredByTheNextDoubles) {
   SceneOptions kept;
   kept.keep_parameters = {"a"};
   const PreparedScene run = prepare(model, model.scene("default"), kept);
-  const AssessedRun assessed = integrate_assessed(model, run, {});
+  const AssessedRun assessed = integrate_assessed(model, model.scene("default"), run, {});
   constexpr double kTruth = 0.058574965848110344;  // mpmath, 60 digits
   EXPECT_GT(assessed.trust.error_estimate, std::abs(assessed.trajectory.state[0] - kTruth) / 3);
 }

@@ -69,7 +69,7 @@ TEST(Frequencies, OfEulersTopAreThoseOfTheEllipticIntegrals) {
   const PreparedScene run = prepare(model, scene, {.observe = std::vector<std::string>{}});
   AssessmentOptions how;
   how.sample_every = 600. / 8192;
-  const AssessedRun judged = integrate_assessed(model, run, how);
+  const AssessedRun judged = integrate_assessed(model, scene, run, how);
   SampledMotion motion{run.specialisation.states, std::vector<bool>(6), judged.trajectory.samples,
                        how.sample_every};
   motion.states.resize(8192);

@@ -87,6 +87,23 @@ TEST(ValidatedEquilibria, CornersAndDoubleRootsAreNotProved) {
 }
 
 /// H has its minimum at 0, but the function that is called a Casimir function is none.
+/// sqrt(q)^4: a motion near it leaves for where there are no equations.
+TEST(ValidatedEquilibria, AtTheEndOfWhereTheEquationsHaveValuesAreNotProved) {
+  const Model model = model_of(R"toml(
+title = "half a well"
+hamiltonian = "p^2/2 + sqrt(q)^4"
+[phase_space]
+variables = ["q", "p"]
+canonical = true
+[[scene]]
+name = "default"
+initial = { q = "1", p = "0" }
+duration = "1"
+)toml");
+  for (const ProvedEquilibrium& proof : both(model, model.scene("default")).proofs)
+    EXPECT_FALSE(proof.proved);
+}
+
 TEST(ValidatedEquilibria, NothingIsProvedWithAFalseCasimirFunction) {
   const Model model = model_of(
       "title = \"t\"\nhamiltonian = \"M1^2/2 + M2^2 + 3*M3^2/2\"\n[phase_space]\nvariables = "

@@ -7,12 +7,14 @@
 #include <random>
 
 #include "codegen/specialise.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/prove.hpp"
 #include "symbolic/search/search.hpp"
 #include "tools/analysis/equilibria/equilibrium_assessment.hpp"
 #include "tools/analysis/equilibria/equilibrium_collection.hpp"
 #include "tools/analysis/equilibria/newton_solution.hpp"
 #include "tools/analysis/equilibria/relative_equations.hpp"
+#include "tools/analysis/proof/proved_facts.hpp"
 
 namespace casimir {
 namespace {
@@ -76,11 +78,10 @@ Model with_velocities(Model model, Scene& scene, const std::vector<GiNaC::ex>& i
   return model;
 }
 
-/// Functions that keep their values: all that the model has, and these.
+/// Functions that are proved to keep their values: of those that the model has, and these.
 std::vector<GiNaC::ex> all_integrals(const Model& model, std::vector<GiNaC::ex> result) {
   if (model.hamiltonian) result.push_back(*model.hamiltonian);
-  for (const auto* more : {&model.casimirs, &model.integrals})
-    for (const NamedExpression& function : *more) result.push_back(function.value);
+  for (const NamedExpression& function : proved_invariants(model)) result.push_back(function.value);
   return result;
 }
 
@@ -94,6 +95,10 @@ double Equilibrium::growth() const {
 
 EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
                                   const std::function<void(double)>& tick) {
+  if (has_arbitrary_functions(model)) {
+    const auto [own, own_scene] = in_scene(model, scene);
+    return find_equilibria(own, own_scene, tick);
+  }
   EquilibriumReport report;
   report.symmetry_functions = linear_integrals(model, report.symmetries);
   const std::vector<GiNaC::ex>& integrals = report.symmetry_functions;

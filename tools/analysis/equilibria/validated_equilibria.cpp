@@ -9,6 +9,7 @@
 
 #include "runtime/step/dense.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/prove.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
@@ -272,8 +273,14 @@ class Prover {
     return z;
   }
 
-  /// \throws NotCertified  where the box is not certain to be where the case is defined
-  void check_domain(const BallMatrix& z) const {
+  /// \throws NotCertified  where the box is not certain to be inside of where the case is defined: on its
+  ///                        boundary no motion leads to the other side
+  void check_domain(BallMatrix z) const {
+    mag_t around;
+    mag_init(around);
+    mag_set_d(around, std::ldexp(report_.size, -60));
+    for (std::size_t i = 0; i < z.rows(); ++i) arb_add_error_mag(z.at(i), around);
+    mag_clear(around);
     for (const GiNaC::ex& part : written_parts(model_, scene_)) functions({part})(z);
     for (const Assumption& assumption : model_.assumptions) {
       const BallMatrix value = functions({at_scene(assumption.difference)})(z);
@@ -391,6 +398,10 @@ std::string to_string(ProvedStability stability) {
 std::vector<ProvedEquilibrium> enclose_equilibria(const Model& model, const Scene& scene,
                                                   const EquilibriumReport& report,
                                                   const ParameterRanges& ranges) {
+  if (has_arbitrary_functions(model)) {
+    const auto [own, own_scene] = in_scene(model, scene);
+    return enclose_equilibria(own, own_scene, report, ranges);
+  }
   require_exact_values(model, scene, "an enclosure");
   const Prover prover(model, scene, report, ranges);
   std::vector<ProvedEquilibrium> result;

@@ -17,6 +17,7 @@
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/expression/principal_values.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "tools/analysis/estimate/shown_parts.hpp"
 
 namespace casimir {
@@ -65,39 +66,16 @@ bool may_lack_value(const ex& part) {
   return !is_elliptic_function(function) && !kAlways.contains(function.get_name());
 }
 
-/// What the functions that the scene gives were written with, at every place where they stand.
-void add_needs_of_functions(const Model& model, const Scene& scene, const ex& written,
-                            std::vector<ex>& needs) {
-  if (scene.lost_of_functions.empty()) return;
-  for (auto part = written.preorder_begin(); part != written.preorder_end(); ++part) {
-    if (!GiNaC::is_exactly_a<GiNaC::function>(*part)) continue;
-    const auto value = as_arbitrary(GiNaC::ex_to<GiNaC::function>(*part));
-    if (!value) continue;
-    const auto lost = scene.lost_of_functions.find(value->function.get_name());
-    const auto given = std::ranges::find_if(model.parameters, [&](const GiNaC::symbol& parameter) {
-      return parameter.is_equal(value->function);
-    });
-    if (lost == scene.lost_of_functions.end() || given == model.parameters.end()) continue;
-    const ex& function =
-        scene.parameters[static_cast<std::size_t>(given - model.parameters.begin())];
-    GiNaC::exmap arguments;
-    for (std::size_t k = 0; k < value->arguments.size(); ++k)
-      arguments[function.op(k)] = model.at_parameters(value->arguments[k], scene);
-    for (const ex& own : lost->second)
-      needs.push_back(bound(model, scene, substituted(own, arguments, model.limits)));
-  }
-}
-
 /// What an expression needs values of with the numbers and functions of the scene in it: what it
 /// shows, and what it shows no longer.
 void add_needs(const Model& model, const Scene& scene, const ex& written, std::vector<ex>& needs) {
-  GiNaC::exmap values;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    values[model.parameters[i]] = scene.parameters[i];
+  const GiNaC::exmap values = model.parameter_values(scene);
   for (const ex& part :
        lost_in_substitution(written, values, model.limits, VanishingTerms::dropped))
     needs.push_back(bound(model, scene, part));
-  add_needs_of_functions(model, scene, written, needs);
+  for (const ex& part :
+       lost_of_functions_in(written, values, scene.lost_of_functions, model.limits))
+    needs.push_back(bound(model, scene, part));
   const ex now = model.at_parameters(written, scene);
   for (auto part = now.preorder_begin(); part != now.preorder_end(); ++part)
     if (may_lack_value(*part)) needs.push_back(*part);

@@ -162,7 +162,7 @@ AnalysedMotion analysed_motion(const Model& model, const Scene& scene, const Pre
   for (std::size_t samples = kFewestSamples;; samples *= 4) {
     AssessmentOptions denser = how;
     denser.sample_every = duration / static_cast<double>(samples);
-    result.run = integrate_assessed(model, run, denser);
+    result.run = integrate_assessed(model, scene, run, denser);
     if (result.run.trajectory.status != Status::ok) return result;
     MotionFrequencies& found = result.found;
     found = frequencies_of(result.run, run.specialisation.states, angles, denser.sample_every,

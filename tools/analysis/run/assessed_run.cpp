@@ -74,8 +74,9 @@ class SmoothnessWatch {
 
 class Judge {
  public:
-  Judge(const Model& model, const PreparedScene& run, const AssessmentOptions& options)
-      : model_(model), run_(run), options_(options) {}
+  Judge(const Model& model, const Scene& scene, const PreparedScene& run,
+        const AssessmentOptions& options)
+      : model_(model), scene_(scene), run_(run), options_(options) {}
 
   AssessedRun judged() {
     if (options_.method == "auto") {
@@ -97,7 +98,7 @@ class Judge {
     if (options_.run.projects()) {
       result_.doubts.clear();
       result_.projected =
-          set_projection(options_.run, model_, run_, result_.settings, result_.doubts);
+          set_projection(options_.run, model_, scene_, run_, result_.settings, result_.doubts);
     }
     result_.settings.give_up = time_limit(options_.time_limit);
     // Nothing is compiled for a method that is not the one to go on with. The module outlives this.
@@ -264,7 +265,8 @@ class Judge {
     if (asked.step && (asked.rtol || asked.atol || asked.tolerance))
       doubts.emplace_back(
           "a constant step is not controlled by its error: the tolerance bounds nothing");
-    DriftDoubts drifts = check_drift(model_, run_.specialisation.invariant_names, trajectory);
+    DriftDoubts drifts =
+        check_drift(model_, scene_, run_.specialisation.invariant_names, trajectory);
     std::ranges::move(drifts.sentences, std::back_inserter(doubts));
     if (trajectory.status == Status::ok) doubt_small_states();
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings,
@@ -306,6 +308,7 @@ class Judge {
   }
 
   const Model& model_;
+  const Scene& scene_;
   const PreparedScene& run_;
   const AssessmentOptions& options_;
   std::optional<NearSingular> singular_;
@@ -324,9 +327,9 @@ bool may_be_beyond_doubles(Status status) {
 
 }  // namespace
 
-AssessedRun integrate_assessed(const Model& model, const PreparedScene& run,
+AssessedRun integrate_assessed(const Model& model, const Scene& scene, const PreparedScene& run,
                                const AssessmentOptions& options) {
-  AssessedRun first = Judge(model, run, options).judged();
+  AssessedRun first = Judge(model, scene, run, options).judged();
   if (!may_be_beyond_doubles(first.trajectory.status)) return first;
   std::optional<Program> scaled =
       codegen::with_scaled_exponentials(run.specialisation.rhs, run.initial.size());
@@ -337,7 +340,7 @@ AssessedRun integrate_assessed(const Model& model, const PreparedScene& run,
   };
   const auto rewritten = std::make_shared<Rewritten>(Rewritten{run});
   rewritten->scene.specialisation.rhs = std::move(*scaled);
-  AssessedRun second = Judge(model, rewritten->scene, options).judged();
+  AssessedRun second = Judge(model, scene, rewritten->scene, options).judged();
   if (second.trajectory.status != Status::ok) return first;
   // The scene lives as long as the result.
   rewritten->later = second.later;

@@ -50,7 +50,7 @@ struct AssessmentOptions {
 /// status `drift_exceeded`.
 /// \param run  must outlive the result.
 /// \throws RequestError  for a method or settings that cannot be.
-AssessedRun integrate_assessed(const Model& model, const PreparedScene& run,
+AssessedRun integrate_assessed(const Model& model, const Scene& scene, const PreparedScene& run,
                                const AssessmentOptions& options);
 
 }  // namespace casimir

@@ -14,26 +14,27 @@ std::string doubt_of_invariant(const std::string& name, double change, Verdict v
                      change, verdict == Verdict::refuted ? "refuted" : "not proved");
 }
 
-std::vector<std::string> doubts_of_drifts(const Model& model, const std::vector<std::string>& names,
+std::vector<std::string> doubts_of_drifts(const Model& model, const Scene& scene,
+                                          const std::vector<std::string>& names,
                                           const std::vector<double>& drifts, double rtol) {
   constexpr double kTimes = 1e4, kLeast = 1e-9;
   std::vector<std::string> doubts;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (drifts[i] <= std::max(kLeast, kTimes * rtol)) continue;
-    if (const Verdict verdict = verdict_on(model, names[i]); verdict != Verdict::proved)
+    if (const Verdict verdict = verdict_on(model, scene, names[i]); verdict != Verdict::proved)
       doubts.push_back(doubt_of_invariant(names[i], drifts[i], verdict));
   }
   return doubts;
 }
 
-std::vector<std::string> doubts_of_members(const Model& model,
+std::vector<std::string> doubts_of_members(const Model& model, const Scene& scene,
                                            const std::vector<std::string>& names,
                                            const EnsembleResult& result, double rtol) {
   std::vector<double> drifts(names.size());
   for (const MemberResult& member : result.members)
     for (std::size_t i = 0; i < std::min(names.size(), member.invariants.size()); ++i)
       drifts[i] = std::max(drifts[i], member.invariants[i].drift);
-  return doubts_of_drifts(model, names, drifts, rtol);
+  return doubts_of_drifts(model, scene, names, drifts, rtol);
 }
 
 std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& orbit) {

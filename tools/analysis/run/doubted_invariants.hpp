@@ -17,11 +17,12 @@ std::string doubt_of_invariant(const std::string& name, double change, Verdict v
 /// Sentences about the invariants that changed by much more than the tolerance allows, and are not
 /// proved to be integrals.
 /// \param drifts  the largest drift of each
-std::vector<std::string> doubts_of_drifts(const Model& model, const std::vector<std::string>& names,
+std::vector<std::string> doubts_of_drifts(const Model& model, const Scene& scene,
+                                          const std::vector<std::string>& names,
                                           const std::vector<double>& drifts, double rtol);
 
 /// The same of the members of an ensemble.
-std::vector<std::string> doubts_of_members(const Model& model,
+std::vector<std::string> doubts_of_members(const Model& model, const Scene& scene,
                                            const std::vector<std::string>& names,
                                            const EnsembleResult& result, double rtol);
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "symbolic/model/given_functions.hpp"
 #include "tools/analysis/proof/prove_in_process.hpp"
 #include "tools/analysis/run/doubted_invariants.hpp"
 
@@ -24,14 +25,14 @@ bool declares(const Model& model, const std::string& name) {
 
 }  // namespace
 
-Proof proof_of(const Model& model, const std::string& invariant) {
+Proof proof_of(const Model& model, const Scene& scene, const std::string& invariant) {
   // Among the invariants H is the Hamiltonian, though the file may call a variable or a definition
   // that: here it gets a name that the file does not use.
-  Model named = model;
+  Model named = model_in_scene(model, scene);
   std::string name = invariant;
-  if (invariant == "H" && model.hamiltonian) {
+  if (invariant == "H" && named.hamiltonian) {
     while (declares(named, name)) name += "_";
-    named.definitions.push_back({name, *model.hamiltonian, {}});
+    named.definitions.push_back({name, *named.hamiltonian, {}});
   }
   Candidates candidates;
   candidates.integrals.push_back({name, {"invariant", 1, 1}, name});
@@ -39,12 +40,12 @@ Proof proof_of(const Model& model, const std::string& invariant) {
   return proofs.empty() ? Proof{} : proofs.front();
 }
 
-Verdict verdict_on(const Model& model, const std::string& invariant) {
-  return proof_of(model, invariant).verdict;
+Verdict verdict_on(const Model& model, const Scene& scene, const std::string& invariant) {
+  return proof_of(model, scene, invariant).verdict;
 }
 
-DriftDoubts check_drift(const Model& model, const std::vector<std::string>& names,
-                        Trajectory& trajectory) {
+DriftDoubts check_drift(const Model& model, const Scene& scene,
+                        const std::vector<std::string>& names, Trajectory& trajectory) {
   DriftDoubts doubts;
   for (std::size_t i = 0; i < trajectory.invariants.size(); ++i) {
     const InvariantRecord& record = trajectory.invariants[i];
@@ -55,7 +56,7 @@ DriftDoubts check_drift(const Model& model, const std::vector<std::string>& name
           fmt::format("{} has no value where the run begins, and says nothing of it", names[i]));
       continue;
     }
-    const Proof proof = proof_of(model, names[i]);
+    const Proof proof = proof_of(model, scene, names[i]);
     if (proof.verdict != Verdict::proved) {
       doubts.which.push_back(i);
       doubts.sentences.push_back(doubt_of_invariant(names[i], record.drift, proof.verdict));

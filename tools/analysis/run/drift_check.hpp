@@ -19,13 +19,14 @@ struct DriftDoubts {
 /// an integral of the case turns an `ok` into `drift_exceeded`; one that is not proves nothing
 /// about the run.
 /// \param names  of the invariants of the trajectory, "H" and those of the file
-DriftDoubts check_drift(const Model& model, const std::vector<std::string>& names,
-                        Trajectory& trajectory);
+DriftDoubts check_drift(const Model& model, const Scene& scene,
+                        const std::vector<std::string>& names, Trajectory& trajectory);
 
-/// What can be proved of that invariant of the case, "H" or one of the file, as an integral.
-Proof proof_of(const Model& model, const std::string& invariant);
+/// What can be proved of that invariant of the case, "H" or one of the file, as an integral, with
+/// the functions of the scene: what is proved of all smooth ones says nothing of one that jumps.
+Proof proof_of(const Model& model, const Scene& scene, const std::string& invariant);
 
 /// Whether that invariant of the case, "H" or one of the file, is an integral.
-Verdict verdict_on(const Model& model, const std::string& invariant);
+Verdict verdict_on(const Model& model, const Scene& scene, const std::string& invariant);
 
 }  // namespace casimir

@@ -21,8 +21,8 @@ std::string said_of(const std::string& name, Verdict verdict) {
 }  // namespace
 
 std::vector<std::string> set_projection(const RunRequest& options, const Model& model,
-                                        const PreparedScene& run, Settings& settings,
-                                        std::vector<std::string>& doubts) {
+                                        const Scene& scene, const PreparedScene& run,
+                                        Settings& settings, std::vector<std::string>& doubts) {
   if (!options.projects()) return {};
   const Specialisation& s = run.specialisation;
   const std::vector<std::string>& known = s.invariant_names;
@@ -37,7 +37,7 @@ std::vector<std::string> set_projection(const RunRequest& options, const Model& 
   for (std::size_t k = 0; k < known.size(); ++k) {
     const bool named = std::ranges::count(options.project_onto, known[k]) != 0;
     if (!options.project_onto.empty() && !named) continue;
-    const Verdict verdict = verdict_on(model, known[k]);
+    const Verdict verdict = verdict_on(model, scene, known[k]);
     if (verdict != Verdict::proved) {
       if (named) throw RequestError("cannot project: " + said_of(known[k], verdict));
       doubts.push_back("not projected onto: " + said_of(known[k], verdict));

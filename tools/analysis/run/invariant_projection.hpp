@@ -18,7 +18,7 @@ namespace casimir {
 /// proved,
 ///                     and where none is left.
 std::vector<std::string> set_projection(const RunRequest& options, const Model& model,
-                                        const PreparedScene& run, Settings& settings,
-                                        std::vector<std::string>& doubts);
+                                        const Scene& scene, const PreparedScene& run,
+                                        Settings& settings, std::vector<std::string>& doubts);
 
 }  // namespace casimir

@@ -51,8 +51,8 @@ Model wherever_it_goes(const Model& model) {
 /// The integrals that are proved without further conditions. That of an invariant is the identity
 /// dI/dt = 0 of functions, on the assumptions of the case that are about parameters alone, which
 /// every scene obeys.
-std::vector<KnownIntegral> known_integrals(const Model& given, const Specialisation& s,
-                                           std::size_t dimension,
+std::vector<KnownIntegral> known_integrals(const Model& given, const Scene& scene,
+                                           const Specialisation& s, std::size_t dimension,
                                            std::vector<std::string>& doubts) {
   const Model model = wherever_it_goes(given);
   std::vector<KnownIntegral> result;
@@ -64,7 +64,7 @@ std::vector<KnownIntegral> known_integrals(const Model& given, const Specialisat
           fmt::format("{} does not make the box smaller: no time was left to prove it", name));
       continue;
     }
-    const Proof proof = proof_of(model, name);
+    const Proof proof = proof_of(model, scene, name);
     if (proof.verdict != Verdict::proved || !proof.where.empty()) {
       doubts.push_back(fmt::format("{} does not make the box smaller: it is {} to be an integral",
                                    name,
@@ -91,8 +91,8 @@ cln::cl_RA radius_of(const ParameterRanges& ranges, const std::string& name) {
 }
 
 /// \param claims  the case whose invariants are proved
-ValidatedProblem problem_of(const Model& claims, const ValidatedOptions& options,
-                            PreparedEnclosure& motion) {
+ValidatedProblem problem_of(const Model& claims, const Scene& scene,
+                            const ValidatedOptions& options, PreparedEnclosure& motion) {
   const Specialisation& s = motion.specialisation;
   ValidatedProblem problem;
   problem.rates = with_resting(s.rhs, s.parameters);
@@ -109,7 +109,7 @@ ValidatedProblem problem_of(const Model& claims, const ValidatedOptions& options
       problem.radii.push_back(radius_of(options.ranges, name));
   }
   if (options.contract)
-    problem.integrals = known_integrals(claims, s, motion.names.size(), motion.doubts);
+    problem.integrals = known_integrals(claims, scene, s, motion.names.size(), motion.doubts);
   return problem;
 }
 
@@ -261,7 +261,7 @@ ValidatedMotion enclosed_lift(const Model& model, const Scene& scene,
     with_radii.radii.push_back(lift.radii.at(static_cast<std::size_t>(state)));
   for (const std::string& name : s.parameters)
     with_radii.radii.push_back(radius_of(options.ranges, name));
-  prepared.problem = problem_of(model, with_radii, prepared);
+  prepared.problem = problem_of(model, scene, with_radii, prepared);
   const auto own = static_cast<std::size_t>(std::ranges::count_if(
       s.state_indices, [&](int state) { return static_cast<std::size_t>(state) < lift.own; }));
   const std::size_t all = s.states.size();
@@ -294,7 +294,7 @@ ValidatedMotion enclosed_with_parts(const Model& model, const Scene& scene,
     radii.insert(radii.begin() + static_cast<std::ptrdiff_t>(own), states - own, cln::cl_RA(0));
     all.radii = std::move(radii);
   }
-  prepared.problem = problem_of(model, all, prepared);
+  prepared.problem = problem_of(model, scene, all, prepared);
   ValidatedMotion motion = enclosed(std::move(prepared), all);
   drop_states(motion, own, states);
   return motion;
@@ -309,7 +309,7 @@ PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
   if (!parts.empty())
     refuse_parts(parts.front(), "an enclosure with a certificate or of crossings");
   PreparedEnclosure prepared = specialised(model, scene, options);
-  prepared.problem = problem_of(model, options, prepared);
+  prepared.problem = problem_of(model, scene, options, prepared);
   return prepared;
 }
 

@@ -406,8 +406,9 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
       return interrupt.told() ? in_parts(members, integrated, interrupt) : integrated(members);
     });
     if (!off_constraints.empty()) warnings.push_back(off_constraints);
-    std::ranges::move(doubts_of_members(model, s.invariant_names, result, settings.rtol),
-                      std::back_inserter(warnings));
+    std::ranges::move(
+        doubts_of_members(model, model.scene(scene), s.invariant_names, result, settings.rtol),
+        std::back_inserter(warnings));
   }
   interrupt.finish();
   Doubles ends({count, members.states}), drift({count, invariants.size()});
