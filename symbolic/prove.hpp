@@ -84,7 +84,7 @@ struct Proof {
   std::vector<std::string> positive;  ///< or zero: so that its roots and logarithms are real
   std::vector<std::string> not_zero;  ///< which of `positive` have to be more than zero
   /// Of an integral: equations of where it may jump, which motions may cross; none of its angles,
-  /// which can be followed.
+  /// which can be followed. Of the Jacobi identity: the same of the bracket.
   std::vector<std::string> jumps;
   std::vector<std::string> integrals;     ///< that a Lax pair gives
   std::optional<SpectrumCount> spectrum;  ///< of a proved Lax pair: what these are enough for

@@ -34,6 +34,19 @@ std::optional<Eigen::VectorXcd> eigenvalues(const Matrix& a) {
 
 }  // namespace
 
+Eigen::MatrixXd times(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a * b; }
+
+Eigen::MatrixXcd adjoint_times(const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right) {
+  return left.adjoint() * right;
+}
+
+Eigen::MatrixXd between(const Eigen::MatrixXd& left, const Eigen::MatrixXd& a,
+                        const Eigen::MatrixXd& right) {
+  return times(times(left.transpose(), a), right);
+}
+
+Eigen::MatrixXd inverted(const Eigen::MatrixXd& a) { return a.inverse(); }
+
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                   double threshold) {
   return decomposed(a, threshold).solve(b);

@@ -7,8 +7,21 @@
 
 namespace casimir {
 
-// Decompositions of small dense matrices, instantiated once: a file that does it on its own takes a
-// compiler ten seconds.
+// Products and decompositions of small dense matrices, instantiated once: a file that does it on
+// its own takes a compiler ten seconds, and two for each product of other expressions.
+
+/// a b.
+Eigen::MatrixXd times(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// left^T a right: of a linear map or a form in other directions, the columns of left and right.
+Eigen::MatrixXd between(const Eigen::MatrixXd& left, const Eigen::MatrixXd& a,
+                        const Eigen::MatrixXd& right);
+
+/// left^* right: of a Hermitian form whose images are the columns of right.
+Eigen::MatrixXcd adjoint_times(const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right);
+
+/// The inverse of a square matrix: not finite where it has none.
+Eigen::MatrixXd inverted(const Eigen::MatrixXd& a);
 
 /// The shortest of the vectors that make |a x - b| least.
 /// \param threshold  pivots below it, relative to the largest, count as zero

@@ -156,7 +156,7 @@ bool measure_cycles(const std::filesystem::path& folder) {
   const OrbitCutter cutter(problem, {1e-14, 1, {}}, kStarts);
   const std::vector<PlacedPoint> domain = points_of_domain(level, cutter.returning(), {});
   const CycleSearch found =
-      find_cycles(level, cutter, spread_out(level, domain, kStarts), 1, [](double) {});
+      find_cycles(level, cutter, spread_out(level, domain, kStarts), 1, true, [](double) {});
   bool good = !found.cycles.empty();
   for (const Cycle& cycle : found.cycles) {
     const double start = seconds();

@@ -8,6 +8,7 @@
 
 #include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
+#include "tools/analysis/proof/proved_facts.hpp"
 #include "tools/analysis/section/orbit_rotation.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
@@ -84,7 +85,9 @@ class SectionCommand {
       progress_.begin(model_.name + ": cycles");
       report.cycles = find_cycles(
           level_, cutter_, cycle_starts(level_, domain(), report.orbits, options_.longest_cycle()),
-          options_.longest_cycle(), [this](double share) { progress_.show(share); });
+          options_.longest_cycle(),
+          verdict_on_jacobi(model_, model_.scene(options_.common.scene)) == Verdict::proved,
+          [this](double share) { progress_.show(share); });
       cut_short_ = cut_short_ || cutter_.interrupted();
       if (options_.validated)
         report.proofs = enclose_cycles(model_, model_.scene(options_.common.scene), problem_,

@@ -7,6 +7,7 @@
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
 #include "tools/analysis/proof/prove_in_process.hpp"
+#include "tools/analysis/proof/proved_facts.hpp"
 #include "tools/analysis/section/orbits.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/stopwatch.hpp"
@@ -144,7 +145,8 @@ class Investigation {
     const OrbitCutter cutter(problem, {1e-14, 1, late}, kStarts);
     const std::vector<PlacedPoint> domain = points_of_domain(level, cutter.returning(), {});
     CycleSearch found =
-        find_cycles(level, cutter, spread_out(level, domain, kStarts), 1, [](double) {});
+        find_cycles(level, cutter, spread_out(level, domain, kStarts), 1,
+                    verdict_on_jacobi(model_, *result_.scene) == Verdict::proved, [](double) {});
     if (found.cycles.size() > kMost) found.cycles.resize(kMost);
     for (const Cycle& cycle : found.cycles) {
       if (late()) break;

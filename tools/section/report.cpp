@@ -117,9 +117,12 @@ void print(const ProvedCycle& proof, const std::string& ranges) {
   fmt::print(
       "         proved: {}one periodic orbit in a box of radius {}, and no other of this period "
       "near it\n"
-      "         period in [{}, {}], trace in [{}, {}]: {}\n",
+      "         period in [{}, {}], trace in [{}, {}]: {}{}\n",
       ranges.empty() ? "" : fmt::format("for every {} ", ranges), power_of_ten_above(proof.radius),
-      low, high, least, most, proof.kind());
+      low, high, least, most, proof.kind(),
+      proof.keeps_area ? ""
+                       : ", since the Jacobi identity of the bracket is not proved, without which "
+                         "the flow need not keep areas");
 }
 
 void print_cycles(const SectionReport& report) {

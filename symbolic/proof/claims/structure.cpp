@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "symbolic/proof/certificate_writer.hpp"
 #include "symbolic/proof/claims/claim.hpp"
@@ -166,6 +168,18 @@ void decide_jacobi(Prover& prover, Proof& proof) {
   prover.decide(proof, residuals, {});
 }
 
+/// Where the bracket may jump on the way of a motion. The flow keeps the bracket on each side and
+/// need not take the one to the other.
+void say_where_bracket_jumps(Prover& prover, Proof& proof) {
+  std::set<std::string> jumps;
+  const std::size_t n = prover.model().variables.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (const Polynomial& jump : prover.passed_jumps(prover.bracket_entry(i, j), true))
+        jumps.insert(prover.ring().text(jump) + " = 0");
+  proof.jumps.assign(jumps.begin(), jumps.end());
+}
+
 }  // namespace
 
 std::vector<Claim> jacobi_claims(const Model& model) {
@@ -173,7 +187,10 @@ std::vector<Claim> jacobi_claims(const Model& model) {
   return {{ClaimKind::jacobi,
            "Jacobi identity",
            false,
-           decide_jacobi,
+           [](Prover& prover, Proof& proof) {
+             decide_jacobi(prover, proof);
+             if (proof.verdict == Verdict::proved) say_where_bracket_jumps(prover, proof);
+           },
            {},
            {},
            false,

@@ -188,7 +188,7 @@ TEST(Cycle, TheNormalModeOfTwoOscillatorsIsAFixedPoint) {
   start << 0, 0.01, 0.7, 0.01;
   ASSERT_TRUE(level.project(start));
   const CycleSearch found =
-      find_cycles(level, cutter, {{start, level.plotted(start.data())}}, 1, [](double) {});
+      find_cycles(level, cutter, {{start, level.plotted(start.data())}}, 1, true, [](double) {});
   ASSERT_EQ(found.cycles.size(), 1U);
   const Cycle& cycle = found.cycles[0];
   EXPECT_EQ(cycle.length(), 1U);

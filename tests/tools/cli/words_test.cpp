@@ -160,6 +160,57 @@ TEST(EquilibriumWords, AKinkHasNone) {
   EXPECT_TRUE(found.at("equilibria")[0].at("eigenvalues").empty());
 }
 
+/// Where the rates themselves jump, or have no value: a quotient 0/0.
+TEST(EquilibriumWords, AJumpIsNotStable) {
+  const Folder folder;
+  for (const char* rates :
+       {"u = \"sign(u) - u\"\nv = \"-v\"", "u = \"sign(u)\"\nv = \"-v\"",
+        "u = \"v\"\nv = \"sign(u)\"", "u = \"-u + 3*u^3/(u^2 + v^2)\"\nv = \"-v\"",
+        // Cones that an odd function has on both sides.
+        "u = \"-u + 20*(abs(u - 2*abs(v)) - abs(u + 2*abs(v)) - abs(u - 3*abs(v)) + abs(u + "
+        "3*abs(v)))\"\nv = \"-2*v + u\""}) {
+    const std::string file = folder.write(
+        "k.toml", equations("\"u\", \"v\"", std::string(rates) +
+                                                "\n[[scene]]\nname = \"default\"\ninitial = { u = "
+                                                "\"0\", v = \"0\" }\nduration = \"1\""));
+    for (const Json& e : answered(folder, {"equilibria", file}).at("equilibria"))
+      if (number(e.at("state").at("u")) == 0) {
+        EXPECT_EQ(e.at("stability"), "no derivative") << rates;
+      }
+  }
+}
+
+/// Eigenvalues do not stay on the axis because a bracket has a name, or a function one.
+TEST(EquilibriumWords, OnlyWhatIsProvedKeepsEigenvaluesOnTheAxis) {
+  const Folder folder;
+  const std::string bracket = folder.write("b.toml", R"toml(
+title = "no Jacobi identity"
+hamiltonian = "z + (x^2 + y^2)/2 + (x^2 + y^2)^2 + z^2/2"
+[phase_space]
+variables = ["x", "y", "z"]
+[phase_space.brackets]
+"x,y" = "1"
+"y,z" = "y/10^15"
+"x,z" = "x/10^15"
+[[scene]]
+name = "default"
+initial = { x = "0", y = "0", z = "0" }
+duration = "1"
+)toml");
+  const std::string integral = folder.write(
+      "i.toml",
+      equations(
+          "\"x\", \"y\"",
+          "x = \"y + x/10^15\"\ny = \"-x + y/10^15\"\n[integrals]\nF = \"x^2 + "
+          "y^2\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"0\", y = \"0\" }\nduration "
+          "= \"1\""));
+  for (const std::string& file : {bracket, integral}) {
+    const Json found = answered(folder, {"equilibria", file});
+    ASSERT_GE(found.at("equilibria").size(), 1U) << file;
+    EXPECT_NE(found.at("equilibria")[0].at("stability"), "spectrally stable") << found;
+  }
+}
+
 TEST(EquilibriumWords, DoNotDependOnUnits) {
   const Folder folder;
   for (const char* size : {"10^(-6)", "1", "10^6"}) {

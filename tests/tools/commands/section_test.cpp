@@ -215,6 +215,59 @@ TEST(Section, PointsOffTheLevelAreDroppedAndFail) {
   EXPECT_EQ(result.at("orbits")[0].at("status"), "drift_exceeded");
 }
 
+/// The cycles of a system of two degrees of freedom with such a bracket.
+Json cycles_with(const std::string& bracket, const std::string& hamiltonian,
+                 const std::string& plane, std::vector<std::string> more = {}) {
+  const std::string text = fmt::format(R"toml(
+title = "t"
+hamiltonian = "{}"
+[phase_space]
+variables = ["q1", "q2", "p1", "p2"]
+[phase_space.brackets]
+{}
+[section]
+function = "{}"
+plot = ["q1", "p1"]
+[[scene]]
+name = "default"
+initial = {{ q1 = "1/10", q2 = "0", p1 = "1/10", p2 = "1" }}
+duration = "20"
+)toml",
+                                       hamiltonian, bracket, plane);
+  more.insert(more.end(), {"--fixed-points", "--orbits", "3", "--points", "20", "--json"});
+  const Outcome outcome = section_of(text.c_str(), more);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.json().at("cycles");
+}
+
+/// Without the Jacobi identity a flow keeps H and no area: |trace| < 2 is no sign of stability. On
+/// q1 = p1 = 0 the multipliers have the product exp(2 k H Pi), by Liouville's formula.
+TEST(Section, CyclesAreEllipticOnlyWhereAreasAreKept) {
+  const auto cycle = [](const std::string& k) {
+    return cycles_with("\"q1,p1\" = \"1\"\n\"q2,p2\" = \"1\"\n\"p1,p2\" = \"" + k + "*p1*p2\"",
+                       "(p1^2 + p2^2 + 2*q1^2 + q2^2)/2", "q2", {"--validated"})
+        .at(0);
+  };
+  const Json kept = cycle("0");
+  EXPECT_EQ(kept.at("kind"), "elliptic") << kept;
+  EXPECT_EQ(kept.at("validated").at("kind"), "elliptic") << kept;
+  const Json slowly = cycle("1/100000");
+  EXPECT_EQ(slowly.at("stability"), "not decided") << slowly;
+  EXPECT_EQ(slowly.at("validated").at("verdict"), "proved") << slowly;
+  EXPECT_EQ(slowly.at("validated").at("kind"), "undecided") << slowly;
+  const Json growing = cycle("1/10");
+  EXPECT_EQ(growing.at("kind"), "unstable") << growing;
+  EXPECT_NEAR(field(growing, "determinant"), std::exp(1.03 * kPi / 10), 1e-6) << growing;
+}
+
+/// On each side of q2 = 0 this bracket satisfies it; passing from one to the other changes areas.
+TEST(Section, ABracketThatJumpsKeepsNoAreas) {
+  const Json cycles = cycles_with("\"q1,p1\" = \"2 + sign(q2)*q1/200000\"\n\"q2,p2\" = \"1\"",
+                                  "(p1^2 + 2*q1^2 + p2^2 + q2^2)/2 + q1*p2/2", "q2 - 1/10");
+  ASSERT_FALSE(cycles.empty());
+  for (const Json& cycle : cycles) EXPECT_EQ(cycle.at("stability"), "not decided") << cycle;
+}
+
 TEST(Section, ALevelThatIsNotFixedOrChangesIsRefused) {
   std::string text = kHenonHeiles;
   text.replace(text.find("- y^3/3"), 7, "- y^3/3 + cos(t)*x");

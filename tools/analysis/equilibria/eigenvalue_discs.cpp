@@ -96,7 +96,8 @@ std::optional<std::vector<EigenvalueDisc>> discs_of_block(Eigen::MatrixXd a,
   const auto system = eigen_system_of(a.cast<std::complex<double>>());
   if (!system) return std::nullopt;
   // Once for the errors, and once for the change that was made.
-  const Eigen::MatrixXd moved = system->left.cwiseAbs() * (2 * error) * system->right.cwiseAbs();
+  const Eigen::MatrixXd moved =
+      times(times(system->left.cwiseAbs(), 2 * error), system->right.cwiseAbs());
   std::vector<EigenvalueDisc> result;
   for (Eigen::Index k = 0; k < a.rows(); ++k) {
     const double radius = moved.row(k).sum();

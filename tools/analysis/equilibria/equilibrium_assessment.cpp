@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/step/dense.hpp"
 #include "tools/analysis/equilibria/newton_solution.hpp"
+#include "tools/analysis/proof/proved_facts.hpp"
 
 namespace casimir::equilibria {
 namespace {
@@ -29,6 +31,7 @@ Assessment::Assessment(const Model& model, const Scene& scene, const Specialisat
       bracket_(model, scene),
       forms_(model, scene, integrals),
       kinks_(spec.rhs) {
+  if (verdict_on_jacobi(model, scene) != Verdict::proved) return;
   constexpr int kTries = 16;
   for (int k = 0; k < kTries && !generic_; ++k)
     generic_ = bracket_.at(scaled.random_place(random).x);
@@ -79,8 +82,8 @@ Matrix Assessment::error_of(const Place& place, const Matrix& matrix,
   constexpr double kOfEntry = 0x1p-49, kOfChange = 2;
   Matrix changes = Matrix::Zero(matrix.rows(), matrix.cols()), sizes = matrix.cwiseAbs();
   if (tangent)  // what cancels along it leaves the rounding of what was there
-    sizes = tangent->transpose().cwiseAbs() * equations_.linearised(place.x, place.v).cwiseAbs() *
-            tangent->cwiseAbs();
+    sizes = between(tangent->cwiseAbs(), equations_.linearised(place.x, place.v).cwiseAbs(),
+                    tangent->cwiseAbs());
   for (const Place& other : nearby) {
     const Matrix there = linearised(other, tangent);
     if (there.allFinite()) changes = changes.cwiseMax((there - matrix).cwiseAbs());
@@ -90,7 +93,7 @@ Matrix Assessment::error_of(const Place& place, const Matrix& matrix,
 
 Matrix Assessment::linearised(const Place& place, const std::optional<Matrix>& tangent) const {
   const Matrix whole = equations_.linearised(place.x, place.v);
-  return tangent ? Matrix(tangent->transpose() * whole * *tangent) : whole;
+  return tangent ? between(*tangent, whole, *tangent) : whole;
 }
 
 bool Assessment::has_no_derivative(const Place& place, const std::vector<Place>& nearby) const {
@@ -98,23 +101,34 @@ bool Assessment::has_no_derivative(const Place& place, const std::vector<Place>&
   for (const Place& other : nearby) inputs.push_back(equations_.inputs(other.x, other.v));
   if (!kinks_.are_at(equations_.inputs(place.x, place.v), inputs)) return false;
   constexpr double kNear = 1e-6, kNearer = 1e-9, kStays = 0.1, kSmall = 1e-7;
-  const double jump = difference(place, kNearer);
-  return jump > kStays * difference(place, kNear) &&
-         jump > kSmall * equations_.linearised(place.x, place.v).norm();
+  const Differences far = differences(place, kNear), near = differences(place, kNearer);
+  const double size = equations_.linearised(place.x, place.v).norm();
+  return (near.linearised > kStays * far.linearised && near.linearised > kSmall * size) ||
+         (near.rates > kStays * far.rates && near.rates > kSmall * scaled_.rate());
 }
 
-double Assessment::difference(const Place& place, double distance) const {
+Assessment::Differences Assessment::differences(const Place& place, double distance) const {
   constexpr int kWays = 8;
-  double result = 0;
+  Differences result;
+  const auto take = [](double& largest, double change) {
+    if (std::isfinite(change)) largest = std::max(largest, change);
+  };
+  const auto compare = [&](const Place& one, const Place& other) {
+    take(result.rates,
+         (equations_.rates(one.x, one.v) - equations_.rates(other.x, other.v)).norm());
+    take(result.linearised,
+         (equations_.linearised(one.x, one.v) - equations_.linearised(other.x, other.v)).norm());
+  };
   std::normal_distribution<double> normal;
+  std::optional<Place> first;
   for (int k = 0; k < kWays; ++k) {
     Vector step = Vector::Zero(place.x.size() + place.v.size());
     for (double& entry : step.head(place.x.size())) entry = normal(random_);
     step *= distance / step.norm();
-    const Place one = scaled_.moved(place, step), other = scaled_.moved(place, -step);
-    const double change =
-        (equations_.linearised(one.x, one.v) - equations_.linearised(other.x, other.v)).norm();
-    if (std::isfinite(change)) result = std::max(result, change);
+    const Place one = scaled_.moved(place, step);
+    if (!first) first = one;
+    compare(one, scaled_.moved(place, -step));
+    compare(one, *first);  // the derivatives of odd functions are even
   }
   return result;
 }
@@ -136,7 +150,7 @@ LinearStructure Assessment::structure(const Place& place, const Directions& dire
   Matrix flat = surely_flat(directions, found).topRows(n);
   if (tangent) {
     gradients *= *tangent;
-    flat = tangent->transpose() * flat;
+    flat = times(tangent->transpose(), flat);
   }
   LinearStructure result;
   result.zeros = rank_of_directions(gradients.transpose()) + rank_of_directions(flat);

@@ -40,11 +40,14 @@ class Assessment {
   /// The linearised equations, along the constraints where there are any.
   Eigen::MatrixXd linearised(const Place& place,
                              const std::optional<Eigen::MatrixXd>& tangent) const;
-  /// Whether the linearised equations are others on the other side, however near: |x|, and not
-  /// x|x|.
+  /// Whether the equations or the linearised ones are others on the other side, however near:
+  /// sign(x) - x and |x|, and not x|x|.
   bool has_no_derivative(const Place& place, const std::vector<Place>& nearby) const;
-  /// The largest difference of the linearised equations across a point.
-  double difference(const Place& place, double distance) const;
+  /// The largest differences across a point.
+  struct Differences {
+    double rates = 0, linearised = 0;
+  };
+  Differences differences(const Place& place, double distance) const;
   LinearStructure structure(const Place& place, const Directions& directions,
                             const Equilibrium& found,
                             const std::optional<Eigen::MatrixXd>& tangent) const;
@@ -60,6 +63,7 @@ class Assessment {
   std::mt19937_64& random_;
   NumericBracket bracket_;
   PreservedForms forms_;
+  /// The bracket at some point; empty where it is not proved to satisfy the Jacobi identity.
   std::optional<Eigen::MatrixXd> generic_;
   Kinks kinks_;
 };

@@ -39,7 +39,7 @@ std::optional<Equilibrium> described(const Equations& equations, const ScaledEqu
   if (moves) result.velocities.assign(v.data(), v.data() + v.size());
   Matrix linearised = equations.linearised(x, moves ? v : Vector::Zero(v.size()));
   if (const auto tangent = equations.tangent(x, v))
-    linearised = tangent->transpose() * linearised * *tangent;
+    linearised = between(*tangent, linearised, *tangent);
   const Matrix matrix = balanced(linearised);
   const auto values = eigenvalues_of(matrix);
   if (!values) return std::nullopt;

@@ -13,7 +13,7 @@ std::vector<double> Kinks::arguments(const std::vector<double>& inputs) const {
   std::vector<double> result;
   for (const StepWatch::Watched& watched : watch_.watched())
     if (watched.kind == StepWatch::Kind::side || watched.kind == StepWatch::Kind::jump ||
-        watched.kind == StepWatch::Kind::turn)
+        watched.kind == StepWatch::Kind::turn || watched.kind == StepWatch::Kind::divisor)
       result.push_back(values[watched.place]);
   return result;
 }

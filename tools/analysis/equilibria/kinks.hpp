@@ -7,7 +7,8 @@
 
 namespace casimir {
 
-/// Where the equations go on by another formula: the arguments of |u|, sign(u) and atan2(u, v).
+/// Where the equations go on by another formula, or have none: the arguments of |u|, sign(u) and
+/// atan2(u, v), and what is divided by.
 class Kinks {
  public:
   explicit Kinks(const Program& rhs);

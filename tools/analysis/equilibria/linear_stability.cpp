@@ -195,7 +195,7 @@ class Groups {
       images.col(j) = units.asDiagonal() * shortest_solution(bracket, original, kNoPivot);
     }
     images *= std::complex<double>(0, 1);
-    return is_definite(vectors.adjoint() * images, images.colwise().norm().maxCoeff());
+    return is_definite(adjoint_times(vectors, images), images.colwise().norm().maxCoeff());
   }
 
   /// Whether a sum of the preserved forms is definite on the eigenvectors of a group.
@@ -207,7 +207,11 @@ class Groups {
     if (forms.empty() || vectors.size() == 0 || !vectors.allFinite()) return false;
     std::vector<Eigen::MatrixXcd> images;
     for (const Eigen::MatrixXd& form : forms) {
-      images.push_back(units.asDiagonal() * (form * (units.asDiagonal() * vectors)));
+      const Eigen::MatrixXd scaled = units.asDiagonal() * form * units.asDiagonal();
+      Eigen::MatrixXcd image(vectors.rows(), vectors.cols());
+      image.real() = times(scaled, vectors.real());
+      image.imag() = times(scaled, vectors.imag());
+      images.push_back(std::move(image));
       const double size = images.back().norm();
       if (size > 0) images.back() /= size;
     }
@@ -217,7 +221,7 @@ class Groups {
     for (int k = 0; k < kSums; ++k) {
       Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(vectors.rows(), vectors.cols());
       for (const Eigen::MatrixXcd& image : images) sum += normal(random) * image;
-      if (is_definite(vectors.adjoint() * sum, sum.colwise().norm().maxCoeff())) return true;
+      if (is_definite(adjoint_times(vectors, sum), sum.colwise().norm().maxCoeff())) return true;
     }
     return false;
   }
@@ -320,7 +324,8 @@ std::vector<Eigen::MatrixXd> PreservedForms::at(const Eigen::VectorXd& state,
     Eigen::MatrixXd form = Eigen::MatrixXd::Zero(state.size(), state.size());
     for (std::size_t i = 0; i < second.size(); ++i)
       form += factors(static_cast<Eigen::Index>(i), k) * second[i];
-    const double left = (linearised.transpose() * form + form * linearised).norm();
+    const Eigen::MatrixXd image = times(form, linearised);
+    const double left = (image.transpose() + image).norm();
     if (form.norm() > 0 && left <= kRounding * form.norm() * linearised.norm())
       result.push_back(form);
   }

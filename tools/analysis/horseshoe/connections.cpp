@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "runtime/step/dense.hpp"
+
 namespace casimir::horseshoe {
 namespace {
 
@@ -180,7 +182,7 @@ class ConnectionFinder {
       if (!next) return std::nullopt;
       result.times.push_back(next->time);
       bases.push_back(map_.tangent(next->state));
-      derivatives.push_back(bases[k + 1].transpose() * next->derivative * bases[k]);
+      derivatives.push_back(between(bases[k + 1], next->derivative, bases[k]));
       direction = derivatives[k] * direction;
       result.growth.push_back(direction.norm());
       x = next->state;

@@ -1,9 +1,9 @@
 #include "tools/analysis/horseshoe/h_set.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/step/dense.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
 
 namespace casimir::horseshoe {
@@ -122,7 +122,7 @@ typename SurfaceChart<Ball>::Region SurfaceChart<Ball>::region(const HSet& set, 
     for (std::size_t k = 0; k < m; ++k) by_sheet(i, k) = by_frame(i, k + 2);
     for (std::size_t k = 0; k < 2; ++k) by_patch(i, k) = by_frame(i, k);
   }
-  const Eigen::MatrixXd inverse = middles(by_sheet).inverse();
+  const Eigen::MatrixXd inverse = inverted(middles(by_sheet));
   if (!inverse.allFinite()) throw std::domain_error("the surface has no certain direction");
   validated::Matrix<double> y(m, m);
   for (std::size_t i = 0; i < m; ++i)

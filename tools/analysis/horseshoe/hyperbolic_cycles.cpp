@@ -33,8 +33,7 @@ std::optional<IteratedReturn> iterated(const NumericReturn& map, Vector x, std::
     if (!next || !next->derivative.allFinite()) return std::nullopt;
     x = next->state;
     result.bases.push_back(k + 1 == length ? result.bases.front() : map.tangent(x));
-    result.derivatives.push_back(result.bases[k + 1].transpose() * next->derivative *
-                                 result.bases[k]);
+    result.derivatives.push_back(between(result.bases[k + 1], next->derivative, result.bases[k]));
     result.returns.push_back(std::move(*next));
   }
   return result;
@@ -154,7 +153,7 @@ class CycleFinder {
       const double area = both(0, 0) * both(1, 1) - both(0, 1) * both(1, 0);
       if (!(std::abs(area) > 1e-9)) return std::nullopt;
       inverse << both(1, 1), -both(0, 1), -both(1, 0), both(0, 0);
-      cycle.parts.push_back(inverse / area * orbit.bases[k].transpose());
+      cycle.parts.push_back(times(inverse / area, orbit.bases[k].transpose()));
       unstable = (orbit.derivatives[k] * unstable).normalized();
       // What the contraction leaves of it may be rounding: from the way back.
       stable = stable_at(orbit, cycle.stable, product, k + 1);

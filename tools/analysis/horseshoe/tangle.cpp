@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "runtime/step/dense.hpp"
 
 namespace casimir::horseshoe {
 namespace {
@@ -68,7 +69,7 @@ class Planner {
     frame.col(1) = across;
     frame.col(2) = map_.rates(centre);
     for (Eigen::Index k = 1; k < gradients.cols(); ++k) frame.col(k + 2) = gradients.col(k);
-    set.parts = frame.inverse().topRows(2);
+    set.parts = inverted(frame).topRows(2);
     return set;
   }
 

@@ -16,7 +16,8 @@ using Matrix = Eigen::MatrixXd;
 constexpr int kRoundsOfCycle = 25;
 /// Newton's method has arrived where a return is so near, relative to the size of the state.
 constexpr double kReturnsWithin = 1e-9, kSameCycle = 1e-6;
-/// Traces nearer to 2 belong to families of cycles.
+/// Derivatives with an eigenvalue that is nearer to 1 belong to families of cycles: this is the
+/// value of its characteristic polynomial at 1, less than 2 - trace where areas are kept.
 constexpr double kDegenerate = 1e-5;
 constexpr double kAreaKept = 1e-4;
 
@@ -157,6 +158,16 @@ void turn(Cycle& cycle) {
 }  // namespace
 
 std::string Cycle::kind() const {
+  if (!keeps_area) {
+    switch (stability()) {
+      case SpectralStability::stable:
+        return "attracting";
+      case SpectralStability::unstable:
+        return "unstable";
+      default:
+        return "near the unit circle";
+    }
+  }
   switch (stability()) {
     case SpectralStability::stable:
       return "elliptic";
@@ -170,6 +181,12 @@ std::string Cycle::kind() const {
 SpectralStability Cycle::stability() const {
   // What integration leaves of a derivative, and what it has made of the determinant.
   constexpr double kError = 1e-7, kOfDeterminant = 10;
+  if (!keeps_area) {
+    const double growth = std::max(std::abs(multipliers()[0]), std::abs(multipliers()[1])) - 1;
+    // Two that are near each other are moved by the root of an error.
+    if (!(std::abs(growth) > std::sqrt(kError))) return SpectralStability::undecided;
+    return growth < 0 ? SpectralStability::stable : SpectralStability::unstable;
+  }
   const double error = kError + kOfDeterminant * std::abs(determinant - 1);
   const double beyond = std::abs(trace) - 2;
   if (!(std::abs(beyond) > error)) return SpectralStability::undecided;
@@ -177,11 +194,12 @@ SpectralStability Cycle::stability() const {
 }
 
 std::array<std::complex<double>, 2> Cycle::multipliers() const {
+  const double product = keeps_area ? 1 : determinant;
   const std::complex<double> half = trace / 2;
-  const std::complex<double> root = std::sqrt(half * half - 1.);
+  const std::complex<double> root = std::sqrt(half * half - product);
   // The larger one without cancellation, the other by their product.
   const std::complex<double> first = trace < 0 ? half - root : half + root;
-  return {first, 1. / first};
+  return {first, product / first};
 }
 
 std::vector<PlacedPoint> cycle_starts(const LevelSet& level, const std::vector<PlacedPoint>& domain,
@@ -210,7 +228,7 @@ std::vector<PlacedPoint> cycle_starts(const LevelSet& level, const std::vector<P
 
 CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
                         const std::vector<PlacedPoint>& starts, std::size_t longest,
-                        const std::function<void(double)>& progress) {
+                        bool keeps_area, const std::function<void(double)>& progress) {
   CycleSearch result;
   for (std::size_t length = 1; length <= longest; ++length) {
     std::vector<Attempt> attempts(starts.size());
@@ -222,11 +240,14 @@ CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
     for (Attempt& attempt : attempts) {
       Cycle& cycle = attempt.cycle;
       if (!attempt.arrived || repeats(level, cycle)) continue;
-      if (std::abs(cycle.trace - 2) < kDegenerate) {
+      cycle.keeps_area = keeps_area;
+      const double product = cycle.keeps_area ? 1 : cycle.determinant;
+      if (std::abs(1 - cycle.trace + product) < kDegenerate) {
         ++result.degenerate;
         continue;
       }
-      if (std::abs(cycle.determinant - 1) > kAreaKept || is_known(level, cycle, found)) continue;
+      if (cycle.keeps_area && std::abs(cycle.determinant - 1) > kAreaKept) continue;
+      if (is_known(level, cycle, found)) continue;
       turn_back(level, cycle);
       turn(cycle);
       found.push_back(std::move(cycle));

@@ -15,19 +15,23 @@ struct Cycle {
   std::vector<PlacedPoint> points;  ///< in the order in which they are visited
   double period = 0;                ///< time for all of it
   double trace = 0;                 ///< of the derivative of the return map's n-th iterate
-  double determinant = 1;           ///< of the same; 1 but for errors: the map keeps the area
+  double determinant = 1;           ///< of the same; 1 but for errors where the map keeps the area
   double residual = 0;              ///< distance of the point that it returns to, in phase space
+  bool keeps_area = true;           ///< as a flow does whose bracket satisfies the Jacobi identity
 
   /// How many times it crosses the plane.
   std::size_t length() const { return points.size(); }
-  /// "elliptic", "hyperbolic", "inverse hyperbolic" or "parabolic or nearly so".
+  /// "elliptic", "hyperbolic", "inverse hyperbolic" or "parabolic or nearly so". Where areas need
+  /// not be kept: "attracting", "unstable" or "near the unit circle".
   std::string kind() const;
-  /// What the trace tells. An elliptic cycle is spectrally stable, and may be unstable all the same
-  /// where a power up to 4 of its multipliers is 1 (Levi-Civita 1901; Arnold, Mathematical Methods
-  /// of Classical Mechanics, app. 7). Nothing is told of a trace that is 2 or -2 within its error.
+  /// What the trace tells, and the determinant where areas need not be kept. An elliptic cycle is
+  /// spectrally stable, and may be unstable all the same where a power up to 4 of its multipliers
+  /// is 1 (Levi-Civita 1901; Arnold, Mathematical Methods of Classical Mechanics, app. 7). Nothing
+  /// is told of a trace that is 2 or -2 within its error.
   SpectralStability stability() const;
   /// The two Floquet multipliers of the periodic orbit that are not 1 by the motion along it and
-  /// across the levels: the roots of m^2 - trace*m + 1.
+  /// across the levels: the roots of m^2 - trace*m + d, with d the determinant, which is 1 where
+  /// areas are kept.
   std::array<std::complex<double>, 2> multipliers() const;
 };
 
@@ -45,9 +49,10 @@ std::vector<PlacedPoint> cycle_starts(const LevelSet& level, const std::vector<P
 /// Cycles up to a length, by Newton's method on the return map from each of the starts. Its
 /// derivative follows from the variational equations, along the level and the plane. Finds what
 /// the starts lead to: there may be others.
-/// \param progress  told the share that is done.
+/// \param keeps_area  as of a Cycle: see `verdict_on_jacobi`
+/// \param progress    told the share that is done.
 CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
                         const std::vector<PlacedPoint>& starts, std::size_t longest,
-                        const std::function<void(double)>& progress);
+                        bool keeps_area, const std::function<void(double)>& progress);
 
 }  // namespace casimir

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/proof/proved_facts.hpp"
 #include "tools/analysis/section/domain_orbits.hpp"
 #include "tools/analysis/section/orbit_rotation.hpp"
 
@@ -55,9 +56,9 @@ PoincareSection section(const Model& model, const Scene& scene, const PoincareOp
     for (const OrbitReport& orbit : result.orbits)
       result.rotations.push_back(rotation_of_orbit(*result.problem, orbit));
   if (options.longest_cycle == 0) return result;
-  result.cycles =
-      find_cycles(level, cutter, cycle_starts(level, domain, result.orbits, options.longest_cycle),
-                  options.longest_cycle, [](double) {});
+  result.cycles = find_cycles(
+      level, cutter, cycle_starts(level, domain, result.orbits, options.longest_cycle),
+      options.longest_cycle, verdict_on_jacobi(model, scene) == Verdict::proved, [](double) {});
   if (options.prove_cycles)
     result.proofs = enclose_cycles(model, scene, *result.problem, result.cycles.cycles);
   return result;

@@ -15,6 +15,7 @@
 #include "symbolic/prove.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
+#include "tools/analysis/proof/proved_facts.hpp"
 #include "tools/analysis/run/exact_values.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/analysis/run/validated.hpp"
@@ -50,6 +51,7 @@ class Prover {
         structure_(
             BallFunctions(model.variables, structure_matrix(model, scene), model.variables.size())
                 .over(ranges)),
+        keeps_area_(verdict_on_jacobi(model, scene) == Verdict::proved),
         seconds_(seconds) {}
 
   /// \throws NotProved, NotCertified
@@ -289,6 +291,7 @@ class Prover {
   ProvedCycle described(const BallMatrix& solution, const BoxImage& image) const {
     ProvedCycle result;
     result.proved = true;
+    result.keeps_area = keeps_area_;
     for (std::size_t i = 0; i <= states(); ++i) {
       const RationalInterval ends = ends_of(solution.at(i));
       result.radius = std::max(result.radius, cln::cl_RA((ends.high - ends.low) / 2));
@@ -314,6 +317,7 @@ class Prover {
   FlowToTime flow_;
   BallFunctions levels_, level_derivatives_, plane_, plane_derivatives_, structure_;
   std::vector<std::size_t> order_;
+  bool keeps_area_;
   double seconds_;
 };
 
@@ -350,6 +354,7 @@ std::string left_by(const Model& model, const Scene& open, const Intervals& rang
 }  // namespace
 
 std::string ProvedCycle::kind() const {
+  if (!keeps_area) return "undecided";
   if (trace.low > 2) return "hyperbolic";
   if (trace.high < -2) return "inverse hyperbolic";
   if (trace.low > -2 && trace.high < 2) return "elliptic";

@@ -18,10 +18,12 @@ struct ProvedCycle {
   /// The sum of the two Floquet multipliers that are not 1 by the motion along the orbit and across
   /// the levels.
   RationalInterval trace{0, 0};
-  cln::cl_RA radius = 0;  ///< the largest half width of the state and the period
+  cln::cl_RA radius = 0;    ///< the largest half width of the state and the period
+  bool keeps_area = false;  ///< it is proved that the product of the two multipliers is 1
 
-  /// "elliptic", "hyperbolic" or "inverse hyperbolic" where the trace is certain to lie within,
-  /// above or below (-2, 2); else "undecided".
+  /// "elliptic", "hyperbolic" or "inverse hyperbolic" where the product of the multipliers is
+  /// proved to be 1 and the trace is certain to lie within, above or below (-2, 2); else
+  /// "undecided".
   std::string kind() const;
 };
 
@@ -41,8 +43,10 @@ struct ProvedCycle {
 ///
 /// The levels are those numbers and all others within 2^-52 of them, of their size.
 /// The trace is that of the derivative of phi_T less one for each I_a and one for the direction of
-/// the flow: these are eigenvalues 1, by the symplectic structure on a leaf of dimension 4 with all
-/// Casimir functions named. What is proved is a period; it need not be the least.
+/// the flow: these are eigenvalues 1, since the flow keeps the I_a and its own direction. That the
+/// product of the other two is 1 is a theorem of symplectic flows on a leaf of dimension 4 with all
+/// Casimir functions named: the Jacobi identity is proved for it, and the rank of the bracket is
+/// enclosed. What is proved is a period; it need not be the least.
 /// \param ranges   parameters that may have any value of an interval: what is proved then holds for
 ///                 each of them, with the level as it is, and the cycles are a smooth branch
 ///                 (implicit function theorem). The function of the plane must not depend on them.
