@@ -91,9 +91,10 @@ void check_symmetry(const SectionArguments& options) {
       throw UsageError("--period and --keep-period are about the cycle of --symmetry");
     return;
   }
-  if (options.longest_cycle() > 1 || options.of_many_orbits || options.rotation ||
-      options.horseshoe || options.validated || asked.plane || asked.direction ||
-      !asked.pair.empty() || !options.outputs.empty() || options.duration)
+  if (options.longest_cycle() > 0 || options.of_many_orbits || options.orbits_given ||
+      options.level_given || options.rotation || options.horseshoe || options.validated ||
+      asked.plane || asked.direction || !asked.pair.empty() || !options.outputs.empty() ||
+      options.duration)
     throw UsageError(
         "--symmetry finds one cycle, from the start of the scene: it goes with --scene, --param, "
         "--initial, --period, --keep-period and --tolerance");

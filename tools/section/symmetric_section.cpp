@@ -51,6 +51,17 @@ double guess_of(const SymmetricSectionRequest& request, const PreparedScene& run
   return value->to_double();
 }
 
+const char* words_of(SpectralStability stability) {
+  switch (stability) {
+    case SpectralStability::stable:
+      return "all on the unit circle to 1e-5: spectrally stable, as far as that tells";
+    case SpectralStability::unstable:
+      return "not all on the unit circle: unstable";
+    default:
+      return "not decided: rounding may have moved them off the unit circle";
+  }
+}
+
 class SymmetricReport {
  public:
   SymmetricReport(const SymmetricSectionRequest& request, const PreparedScene& run,
@@ -72,9 +83,12 @@ class SymmetricReport {
                  {"residual", exact_text(cycle_.residual)},
                  {"closure", exact_text(cycle_.closure)},
                  {"multipliers", Json::array()},
-                 {"stable", cycle_.stable()},
+                 {"stable", Json()},
+                 {"stability", to_string(cycle_.stability())},
                  {"rounds", cycle_.rounds},
                  {"warnings", warnings_}};
+    if (cycle_.stability() != SpectralStability::undecided)
+      json["stable"] = cycle_.stability() == SpectralStability::stable;
     for (std::size_t i = 0; i < names_.size(); ++i)
       json["state"][names_[i]] = exact_text(cycle_.state[i]);
     for (const auto& m : cycle_.multipliers)
@@ -95,10 +109,7 @@ class SymmetricReport {
     for (const auto& m : cycle_.multipliers)
       fmt::print(" {:.6f}{}", m.real(),
                  std::abs(m.imag()) < 5e-7 ? "" : fmt::format("{:+.6f}i", m.imag()));
-    fmt::print("\n  {}\n",
-               cycle_.stable()
-                   ? "all on the unit circle to 1e-5: spectrally stable, as far as that tells"
-                   : "not all on the unit circle: unstable");
+    fmt::print("\n  {}\n", words_of(cycle_.stability()));
     for (const std::string& warning : warnings_) fmt::print("  warning: {}\n", warning);
   }
 

@@ -5,13 +5,17 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "runtime/step/dense.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/model/given_functions.hpp"
+#include "tools/analysis/equilibria/eigenvalue_discs.hpp"
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/proof/proved_facts.hpp"
 #include "tools/analysis/section/periods.hpp"
 #include "tools/analysis/sweep/deviations.hpp"
 
@@ -28,6 +32,8 @@ constexpr double kPointHolds = 1e-9;
 constexpr double kSilent = 1e-8;
 /// Newton's method has arrived where it moves no further than this, relative to the state.
 constexpr double kStill = 1e-12, kReturnMet = 1e-10;
+/// Multipliers so near to the unit circle count as on it.
+constexpr double kOnCircle = 1e-5;
 
 /// A point in no special position, between 0.4 and 1.4.
 GiNaC::exmap some_point(const Model& model, int which) {
@@ -77,31 +83,53 @@ int order_of(const Model& model, const std::vector<GiNaC::ex>& image) {
                   kMostPassages));
 }
 
-/// dS f = f(S) at points in general position.
-void check_motions(const Model& model, const Scene& scene, const std::vector<GiNaC::ex>& image) {
-  std::vector<GiNaC::ex> field;
-  for (const GiNaC::ex& rate : model.field) field.push_back(model.at_parameters(rate, scene));
+/// \throws RequestError  where not all of these are proved; `refused` says what one means.
+void require_proved(const Model& model, const std::vector<Identity>& identities,
+                    const std::function<std::string(const GiNaC::symbol&)>& refused) {
+  if (verdict_on_identities(model, identities) == Verdict::proved) return;
+  for (std::size_t i = 0; i < identities.size(); ++i)
+    if (verdict_on_identities(model, {identities[i]}) == Verdict::refuted)
+      throw RequestError(refused(model.variables[i]));
+  throw RequestError("whether the map is a symmetry of the equations is not decided");
+}
+
+Identity identity(GiNaC::ex left, GiNaC::ex right) {
+  return {"symmetry", {"symmetry", 1, 1}, std::move(left), std::move(right), {}};
+}
+
+/// S^n = 1, identically.
+void check_order(const Model& model, const std::vector<GiNaC::ex>& image, int order) {
   const GiNaC::exmap map = image_of(model, image);
-  for (int which = 1; which <= 3; ++which) {
-    const GiNaC::exmap point = some_point(model, which);
-    for (std::size_t i = 0; i < image.size(); ++i) {
-      GiNaC::ex moved = 0;
-      for (std::size_t j = 0; j < image.size(); ++j)
-        moved += image[i].diff(model.variables[j]) * field[j];
-      const Limits& limits = model.limits;
-      const auto left = value_at(moved, point, limits),
-                 right = value_at(substituted(field[i], map, limits), point, limits);
-      if (left && right && !near(left, right))
-        throw RequestError(fmt::format(
-            "the map is no symmetry of the equations: the image of {} does not change as {} does "
-            "at the image of a point",
-            model.variables[i].get_name(), model.variables[i].get_name()));
-      if (!left || !right)
-        throw RequestError(
-            "the equations have no value at a point in general position, or at its "
-            "image: whether the map is a symmetry cannot be seen");
-    }
+  std::vector<Identity> identities;
+  for (const GiNaC::symbol& x : model.variables) {
+    GiNaC::ex moved = x;
+    for (int k = 0; k < order; ++k) moved = substituted(moved, map, model.limits);
+    identities.push_back(identity(moved, x));
   }
+  require_proved(model, identities, [order](const GiNaC::symbol& x) {
+    return fmt::format("the symmetry is of no finite order: applied {} times it does not keep {}",
+                       order, x.get_name());
+  });
+}
+
+/// dS f = f(S), identically: at points of some region, or to some digits, it would be so of maps
+/// that are no symmetries.
+void check_motions(const Model& model, const std::vector<GiNaC::ex>& field,
+                   const std::vector<GiNaC::ex>& image) {
+  const GiNaC::exmap map = image_of(model, image);
+  std::vector<Identity> identities;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    GiNaC::ex moved = 0;
+    for (std::size_t j = 0; j < image.size(); ++j)
+      moved += image[i].diff(model.variables[j]) * field[j];
+    identities.push_back(identity(moved, substituted(field[i], map, model.limits)));
+  }
+  require_proved(model, identities, [](const GiNaC::symbol& x) {
+    return fmt::format(
+        "the map is no symmetry of the equations: the image of {} does not change as {} does at "
+        "the image of a point",
+        x.get_name(), x.get_name());
+  });
 }
 
 /// Newton's method for one tolerance.
@@ -153,6 +181,10 @@ class SymmetricNewton {
       }
     }
     if (!result.found) return failed("Newton's method has not arrived at a cycle");
+    if (is_at_rest(x, part))
+      return failed("Newton's method has arrived at an equilibrium, which has no period");
+    result.order = symmetry_.order;
+    result.fixed_after = fixed_after(x);
     result.state.assign(x.data(), x.data() + x.size());
     result.period = part * symmetry_.order;
     if (!flow(x, part)) return failed("the motion could not be continued for a part of the period");
@@ -235,14 +267,40 @@ class SymmetricNewton {
     return derivative_.allFinite();
   }
 
+  /// Whether nothing moves but for rounding, beside the size of the variables that do at all.
+  bool is_at_rest(const State& x, double part) const {
+    constexpr double kOfSize = 1e-10;
+    double size = 0;
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      if (!model_.field[static_cast<std::size_t>(i)].is_zero()) size = std::hypot(size, x[i]);
+    return !(rate_.norm() * std::abs(part) > kOfSize * size);
+  }
+
+  /// After how many times S takes x to itself; at most its order.
+  int fixed_after(const State& x) const {
+    State here = x;
+    for (int k = 1; k < symmetry_.order; ++k) {
+      here = image_at(here);
+      if (difference(here, x).norm() < kPointHolds * (1e-300 + x.norm())) return k;
+    }
+    return symmetry_.order;
+  }
+
   void find_multipliers(const State& x, SymmetricCycle& result) const {
     const Square slopes = slopes_at(x);
     Square turned(x.size(), x.size());
     for (Eigen::Index k = 0; k < x.size(); ++k)
       turned.col(k) = shortest_solution(slopes, derivative_.col(k), 1e-12);
-    const auto values = eigenvalues_of(turned);
-    if (!values) return;
-    result.multipliers.assign(values->data(), values->data() + values->size());
+    constexpr double kOfDerivative = 1e-10;
+    const auto discs = eigenvalue_discs(
+        turned, Square::Constant(x.size(), x.size(), kOfDerivative * turned.cwiseAbs().maxCoeff()));
+    if (!discs) return;
+    for (const EigenvalueDisc& disc : *discs) result.multipliers.push_back(disc.value);
+    result.grows = std::ranges::any_of(*discs, [&](const EigenvalueDisc& one) {
+      return std::ranges::all_of(*discs, [&](const EigenvalueDisc& disc) {
+        return disc.group != one.group || std::abs(disc.centre) - disc.radius > 1 + kOnCircle;
+      });
+    });
     std::ranges::sort(result.multipliers, [](const auto& a, const auto& b) {
       return std::pair(-std::abs(a), std::arg(a)) < std::pair(-std::abs(b), std::arg(b));
     });
@@ -276,7 +334,8 @@ class SymmetricNewton {
 PhaseSymmetry phase_symmetry(const Model& model, const Scene& scene,
                              const std::vector<std::pair<std::string, GiNaC::ex>>& images) {
   PhaseSymmetry result;
-  std::vector<GiNaC::ex> at_scene;
+  std::vector<GiNaC::ex> at_scene, field;
+  for (const GiNaC::ex& rate : model.field) field.push_back(model.at_parameters(rate, scene));
   for (const GiNaC::symbol& x : model.variables) {
     const auto given = std::ranges::find_if(
         images, [&](const auto& image) { return image.first == x.get_name(); });
@@ -285,7 +344,9 @@ PhaseSymmetry phase_symmetry(const Model& model, const Scene& scene,
   }
   if (model.time) throw RequestError("the equations depend on the time: no cycle of the flow");
   result.order = order_of(model, at_scene);
-  check_motions(model, scene, at_scene);
+  const Model own = model_in_scene(model, scene);
+  check_order(own, at_scene, result.order);
+  check_motions(own, field, at_scene);
   return result;
 }
 
@@ -314,11 +375,13 @@ SymmetricCycle symmetric_cycle(const Model& model, const Scene& scene, const Pre
   return cycle;
 }
 
-bool SymmetricCycle::stable() const {
-  constexpr double kOnCircle = 1e-5;
-  return std::ranges::all_of(multipliers, [](const std::complex<double>& m) {
+SpectralStability SymmetricCycle::stability() const {
+  if (grows) return SpectralStability::unstable;
+  const bool on_circle = std::ranges::all_of(multipliers, [](const std::complex<double>& m) {
     return std::abs(std::abs(m) - 1) < kOnCircle;
   });
+  return on_circle && !multipliers.empty() ? SpectralStability::stable
+                                           : SpectralStability::undecided;
 }
 
 std::vector<std::string> SymmetricCycle::warnings() const {
@@ -329,6 +392,11 @@ std::vector<std::string> SymmetricCycle::warnings() const {
         fmt::format("over all of the period the motion misses its start by {:.1e}: the cycle is "
                     "too unstable, or no cycle",
                     closure));
+  if (fixed_after > 0 && fixed_after < order)
+    result.push_back(fmt::format(
+        "S {} this cycle as it is, point by point: {} of T is a period of it already",
+        fixed_after == 1 ? "leaves" : fmt::format("applied {} times leaves", fixed_after),
+        fmt::format("{}/{}", fixed_after, order)));
   if (!(state_error < kFarFromClosing))
     result.emplace_back(
         "a coarser tolerance gives another cycle, or none: where the symmetry is of a whole "

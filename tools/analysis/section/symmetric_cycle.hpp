@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/analysis/equilibria/spectral_stability.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 
 namespace casimir {
@@ -18,8 +19,10 @@ struct PhaseSymmetry {
 };
 
 /// Completes images of some variables by the others themselves, and finds the order.
-/// \throws RequestError  where it is of no order up to 48, or does not take motions to motions; the
-///     message names the variable whose rate is not that of its image
+/// That it is of this order and takes motions to motions, dS f = f(S), is proved: only then is
+/// x(t + T/n) = S x(t) for all t where it holds for t = 0.
+/// \throws RequestError  where it is of no order up to 48, or does not take motions to motions, or
+///     that is not decided; the message names the variable whose rate is not that of its image
 PhaseSymmetry phase_symmetry(const Model& model, const Scene& scene,
                              const std::vector<std::pair<std::string, GiNaC::ex>>& images);
 
@@ -35,12 +38,16 @@ struct SymmetricCycle {
   /// The n-th roots of the Floquet multipliers: the eigenvalues of the derivative of the flow over
   /// T/n behind the inverse of S.
   std::vector<std::complex<double>> multipliers;
-  int rounds = 0;  ///< of Newton's method
+  bool grows = false;   ///< some of them are outside the unit circle, whatever rounding has done
+  int rounds = 0;       ///< of Newton's method
+  int order = 0;        ///< n
+  int fixed_after = 0;  ///< so many times S takes the state to itself; n where no fewer do
 
-  /// Whether all multipliers are on the unit circle to 1e-5, as near as rounding brings multiple
-  /// ones: small changes grow more slowly than exponentially, or by that much in T/n. (Of a
-  /// multiple one they may still grow, as within a family of cycles.)
-  bool stable() const;
+  /// Stable where all multipliers are on the unit circle to 1e-5: small changes grow more slowly
+  /// than exponentially, or by that much in T/n. (Of a multiple one they may still grow, as within
+  /// a family of cycles.) Undecided where some are off it and may be on it all the same: rounding
+  /// moves an m-fold one by the m-th root of its size.
+  SpectralStability stability() const;
   /// Why it may be no cycle, or no isolated one: sentences.
   std::vector<std::string> warnings() const;
 };

@@ -532,7 +532,9 @@ class Cycle:
     period: float
     trace: float  #: of the derivative of the return map along it
     multipliers: tuple[complex, complex]
-    kind: str  #: 'elliptic', 'hyperbolic', 'inverse hyperbolic' or 'parabolic or nearly so'
+    #: 'elliptic', 'hyperbolic', 'inverse hyperbolic' or 'parabolic or nearly so'; where areas need not be
+    #: kept 'attracting', 'unstable' or 'near the unit circle'
+    kind: str
     stable: bool | None  #: spectrally: it is elliptic; None where that is not decided
     stability: str  #: 'spectrally stable', 'unstable' or 'not decided'
     residual: float  #: how far it is from closing
@@ -553,7 +555,8 @@ class SymmetricCycle:
     residual: float  #: how far x(T/n) is from S x(0), relative to the size of the state
     closure: float  #: the same of x(T) and x(0)
     multipliers: list[complex]  #: n-th roots of those of Floquet
-    stable: bool  #: all of these are on the unit circle to 1e-5
+    stable: bool | None  #: all of these are on the unit circle to 1e-5; None where that is not decided
+    stability: str  #: 'spectrally stable', 'unstable' or 'not decided'
     order: int  #: of S
     names: list[str]  #: of the entries of a state
     warnings: list[str]

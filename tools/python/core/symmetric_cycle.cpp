@@ -61,14 +61,17 @@ py::dict symmetric_cycle_of(const Case& self, const std::string& scene, const Va
     order = symmetry.order;
   }
   interrupt.raise();
+  py::object stable = py::none();
+  if (!cycle.found || cycle.stability() != SpectralStability::undecided)
+    stable = py::bool_(cycle.found && cycle.stability() == SpectralStability::stable);
   return py::dict(
       "found"_a = cycle.found, "reason"_a = cycle.reason, "names"_a = states, "order"_a = order,
       "state"_a =
           py::array_t<double>(static_cast<py::ssize_t>(cycle.state.size()), cycle.state.data()),
       "period"_a = cycle.period, "state_error"_a = cycle.state_error,
       "period_error"_a = cycle.period_error, "residual"_a = cycle.residual,
-      "closure"_a = cycle.closure, "multipliers"_a = cycle.multipliers,
-      "stable"_a = cycle.found && cycle.stable(),
+      "closure"_a = cycle.closure, "multipliers"_a = cycle.multipliers, "stable"_a = stable,
+      "stability"_a = to_string(cycle.stability()),
       "warnings"_a = cycle.found ? cycle.warnings() : Names{});
 }
 
