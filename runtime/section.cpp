@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bitset>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -34,6 +35,9 @@ constexpr double kTail = 1e-10;
 /// How short a part of a step may become, and how many there may be of one step.
 constexpr std::int64_t kMostParts = std::int64_t{1} << 40;
 constexpr int kMostPartsOfStep = 4096;
+
+constexpr std::size_t kMostLanes = 8;
+using Lanes = std::bitset<kMostLanes>;
 
 /// What the threads share.
 struct Cutting {
@@ -123,19 +127,19 @@ class Cutter {
 
   void observe(const casimir_lane_step& step) {
     kernel_(&tables_, &step, memory_.get(), &range_);
-    std::array<bool, 8> in_parts{};
+    Lanes in_parts{};
     for (int lane = 0; lane < step.lanes; ++lane) {
       if (!step.held[lane] || step.member[lane] < 0) continue;
       if (is_fine(step, lane))
         step.finished[lane] = see(step, lane) ? -1 : 0;
       else
-        in_parts[static_cast<std::size_t>(lane)] = true;
+        in_parts.set(static_cast<std::size_t>(lane));
     }
-    for (int lane = 0; lane < step.lanes; ++lane)
-      if (in_parts[static_cast<std::size_t>(lane)]) {
-        parts_left_ = kMostPartsOfStep;
-        step.finished[lane] = see_in_parts(step, lane, 0, 1) ? -1 : 0;
-      }
+    if (in_parts.none()) return;
+    parts_left_.fill(kMostPartsOfStep);
+    const Lanes enough = see_in_parts(step, in_parts, 0, 1);
+    for (std::size_t lane = 0; lane < in_parts.size(); ++lane)
+      if (in_parts[lane]) step.finished[lane] = enough[lane] ? -1 : 0;
   }
 
   /// Whether the series that the kernel has worked on is the function of the plane all along the
@@ -145,23 +149,34 @@ class Cutter {
   }
 
   /// Both halves of a part of a step, in halves themselves as often as the series of the function
-  /// needs it. What is done to a lane does not depend on the others. Whether the orbit has seen
-  /// enough.
-  bool see_in_parts(const casimir_lane_step& whole, int lane, std::int64_t which,
-                    std::int64_t parts) {
+  /// needs it in one of these lanes. What is done to a lane does not depend on the others. Those
+  /// whose orbits have seen enough.
+  Lanes see_in_parts(const casimir_lane_step& whole, Lanes lanes, std::int64_t which,
+                     std::int64_t parts) {
+    Lanes enough{};
     for (std::int64_t half = 2 * which; half < 2 * which + 2; ++half) {
       // One at a time: its step is that of the next as well.
       const casimir_lane_step& step = part_.take(whole, half, 2 * parts);
       kernel_(&tables_, &step, memory_.get(), &range_);
-      const bool given_up = --parts_left_ < 0 || !std::isfinite(range_.tail[lane]);
-      if (given_up) shared_.orbits[static_cast<std::size_t>(whole.member[lane])].doubt();
-      if (given_up || is_fine(step, lane)) {
-        if (see(step, lane)) return true;
-      } else if (2 * parts < kMostParts && see_in_parts(whole, lane, half, 2 * parts)) {
-        return true;
-      }  // else about a corner: the next part begins behind it
+      Lanes halved{};
+      for (std::size_t k = 0; k < lanes.size(); ++k) {
+        if (!lanes[k]) continue;
+        const int lane = static_cast<int>(k);
+        const bool given_up = --parts_left_[k] < 0 || !std::isfinite(range_.tail[lane]);
+        if (given_up) shared_.orbits[static_cast<std::size_t>(whole.member[lane])].doubt();
+        if (given_up || is_fine(step, lane))
+          enough[k] = see(step, lane);
+        else
+          halved.set(k);
+      }
+      // Where they are as short as they may be it is about a corner: the next part begins behind
+      // it.
+      if (halved.any() && 2 * parts < kMostParts)
+        enough |= see_in_parts(whole, halved, half, 2 * parts);
+      lanes &= ~enough;
+      if (lanes.none()) break;
     }
-    return false;
+    return enough;
   }
 
   /// Shows the step that the kernel has worked on to the orbit in a lane. Whether it has seen
@@ -198,7 +213,7 @@ class Cutter {
   const std::unique_ptr<double[], AlignedDelete> memory_;
   casimir_jet_range range_ = {};
   PartOfStep part_;
-  int parts_left_ = 0;
+  std::array<int, kMostLanes> parts_left_{};  ///< of the step, in each lane
   std::optional<LaneLook> look_, plane_look_;
   std::vector<long long> again_;
   unsigned calls_ = 0;

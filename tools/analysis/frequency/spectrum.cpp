@@ -41,6 +41,29 @@ Complex wave(double frequency, std::size_t j) {
   return std::polar(1., kTurn * (turns - std::round(turns)));
 }
 
+/// All waves of a frequency in their order, each to about a rounding: a power of the first one
+/// behind a place that is exact.
+class Waves {
+ public:
+  explicit Waves(double frequency) : frequency_(frequency) {
+    for (std::size_t k = 0; k < kBlock; ++k) turns_[k] = wave(frequency, k);
+  }
+
+  Complex next() {
+    const std::size_t k = place_ % kBlock;
+    if (k == 0) base_ = wave(frequency_, place_);
+    ++place_;
+    return base_ * turns_[k];
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 16;
+  double frequency_;
+  std::array<Complex, kBlock> turns_;
+  Complex base_ = 1;
+  std::size_t place_ = 0;
+};
+
 double wrapped(double frequency) { return frequency - std::round(frequency); }
 
 /// One signal, seen through the window.
@@ -118,8 +141,9 @@ class Analysis {
   std::array<Complex, 3> spectrum_at(const Signal& z, double frequency) const {
     std::array<Complex, 3> sum{};
     const double middle = (count_of() - 1) / 2;
+    Waves waves(frequency);
     for (std::size_t j = 0; j < z.size(); ++j) {
-      const Complex term = weights_[j] * z[j] * std::conj(wave(frequency, j));
+      const Complex term = weights_[j] * z[j] * std::conj(waves.next());
       const double t = static_cast<double>(j) - middle;  // no phase turns with the frequency
       sum[0] += term;
       sum[1] += t * term;
@@ -150,15 +174,16 @@ class Analysis {
 
   Complex projection(const Signal& z, double frequency) const {
     Complex sum = 0;
-    for (std::size_t j = 0; j < z.size(); ++j)
-      sum += weights_[j] * z[j] * std::conj(wave(frequency, j));
+    Waves waves(frequency);
+    for (std::size_t j = 0; j < z.size(); ++j) sum += weights_[j] * z[j] * std::conj(waves.next());
     return sum;
   }
 
   /// Of two waves, seen through the window.
   Complex product(double first, double second) const {
     Complex sum = 0;
-    for (std::size_t j = 0; j < weights_.size(); ++j) sum += weights_[j] * wave(second - first, j);
+    Waves waves(second - first);
+    for (const double weight : weights_) sum += weight * waves.next();
     return sum;
   }
 
@@ -186,7 +211,8 @@ class Analysis {
   }
 
   static void add(Complex amplitude, double frequency, Signal& to) {
-    for (std::size_t j = 0; j < to.size(); ++j) to[j] += amplitude * wave(frequency, j);
+    Waves waves(frequency);
+    for (Complex& sample : to) sample += amplitude * waves.next();
   }
 
   /// Each line without the others, then all amplitudes anew.
