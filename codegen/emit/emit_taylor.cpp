@@ -249,13 +249,16 @@ class TaylorWriter {
                  "[degree] < 0 ? -1 : 0;\n";
         return assign(y, side + " * " + a + "[degree]");
       }
-      case SeriesRule::constant: {  // what has no value has no sign either
+      case SeriesRule::constant: {
+        jumps_ = true;
+        // What has no value has no sign either, and where it begins at zero the terms that say on
+        // which side it goes on may depend on the sign.
         const auto number = [&](const std::string& text) {
           return "static_cast<" + real() + ">(" + text + ")";
         };
         return assign(y, "degree > 0 ? " + number("0") + " : " + a + "[0] > 0 ? " + number("1") +
-                             " : " + a + "[0] < 0 ? " + number("-1") + " : " +
-                             number("0 * " + a + "[0]"));
+                             " : " + a + "[0] < 0 ? " + number("-1") + " : " + "(" + a + "[0] - " +
+                             a + "[0]) / (" + a + "[0] - " + a + "[0])");
       }
       case SeriesRule::angle: {
         const std::string b = series(c.b);
@@ -330,6 +333,11 @@ class TaylorWriter {
         "// Taylor coefficients of the solution through x: coefficients[i + dimension*k] belongs "
         "to\n"
         "// the power k of the time from there, k = 0 .. Order.\n";
+    if (jumps_)
+      text +=
+          "// They are no numbers where the argument of a sign is 0 at x: on which side the "
+          "motion\n"
+          "// goes on may depend on them.\n";
     text += context_.is_template ? "template <int Order, class Real>\n" : "template <int Order>\n";
     return text +
            wrapped(
@@ -411,6 +419,7 @@ class TaylorWriter {
   std::set<std::string> used_;
   std::string arrays_;
   std::string loop_;
+  bool jumps_ = false;  ///< it has a sign
   int count_ = 0;
 };
 

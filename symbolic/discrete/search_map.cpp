@@ -46,6 +46,7 @@ class Search {
   Search(const MapModel& map, int degree, const search::Watch& watch)
       : map_(map),
         watch_(watch),
+        degree_(degree),
         program_(map.base.symbols(), next_and_slopes(map)),
         next_(map.base.symbols(), map.next),
         monomials_(search::all_monomials(std::vector<int>(map.base.variables.size(), 1), degree)),
@@ -65,6 +66,11 @@ class Search {
       result_.reason =
           "functions with symbolic parameters are not reconstructed: with numbers for all of them "
           "they are shown";
+    if (result_.generic.empty() && result_.integrals.empty() && !result_.no_fraction &&
+        result_.reason.empty())
+      result_.reason =
+          "orbits lie on hypersurfaces of this degree, and no quotient of polynomials was found "
+          "that is an integral: whether there is one is not decided";
     return std::move(result_);
   }
 
@@ -235,14 +241,17 @@ class Search {
     return result;
   }
 
-  /// The monomials in some of the variables, given as bits.
-  std::vector<std::size_t> monomials_in(unsigned variables) const {
+  /// The monomials up to a degree in some of the variables, given as bits.
+  std::vector<std::size_t> monomials_in(unsigned variables, int degree) const {
     std::vector<std::size_t> result;
     for (std::size_t m = 0; m < monomials_.size(); ++m) {
       bool inside = true;
-      for (std::size_t i = 0; i < map_.base.variables.size(); ++i)
+      int own = 0;
+      for (std::size_t i = 0; i < map_.base.variables.size(); ++i) {
         inside = inside && (monomials_[m][i] == 0 || (variables >> i & 1U) != 0);
-      if (inside) result.push_back(m);
+        own += static_cast<int>(monomials_[m][i]);
+      }
+      if (inside && own <= degree) result.push_back(m);
     }
     return result;
   }
@@ -250,7 +259,9 @@ class Search {
   /// Hirota-Kimura bases: of A/B = h the polynomial A - h B vanishes on the orbit. So where nothing
   /// does, no quotient is an integral. Where the relations of many orbits span one dimension more
   /// than those of each, all quotients of functions of the span are integrals: that is looked for
-  /// among the monomials of all variables and of some of them, and what it gives is proved.
+  /// among the monomials of all variables and of some of them, and what it gives is proved. Up to a
+  /// higher degree there are the products of A - h B with monomials as well, so that the lower ones
+  /// come first.
   void find_fractions() {
     watch_.begin("orbits");
     constexpr int kOrbits = 6;
@@ -258,25 +269,28 @@ class Search {
     const std::size_t n = map_.base.variables.size();
     std::vector<std::vector<Row>> orbits{random_orbit()};
     const unsigned all = (1U << n) - 1;
-    result_.relations = relations(orbits.front(), monomials_in(all)).size();
+    result_.relations = relations(orbits.front(), monomials_in(all, degree_)).size();
     result_.no_fraction = result_.relations == 0;
     if (!result_.generic.empty() || result_.no_fraction) return;
     while (orbits.size() < kOrbits) orbits.push_back(random_orbit());
-    for (unsigned variables = 1; variables <= all; ++variables) {
-      if (variables != all && n > kMostVariables) continue;
-      const std::vector<std::size_t> chosen = monomials_in(variables);
-      std::vector<Row> span;
-      std::size_t own = 0;
-      for (const auto& orbit : orbits) {
-        const std::vector<Row> found = relations(orbit, chosen);
-        own = found.size();
-        if (own == 0) break;
-        span.insert(span.end(), found.begin(), found.end());
-      }
-      if (own == 0) continue;
-      span = echelon(span, monomials_.size());
-      if (span.size() == own + 1) try_quotients(span);
+    for (int degree = 1; degree <= degree_; ++degree)
+      for (unsigned variables = 1; variables <= all; ++variables)
+        if (variables == all || n <= kMostVariables)
+          find_fractions(orbits, monomials_in(variables, degree));
+  }
+
+  void find_fractions(const std::vector<std::vector<Row>>& orbits,
+                      const std::vector<std::size_t>& chosen) {
+    std::vector<Row> span;
+    std::size_t own = 0;
+    for (const auto& orbit : orbits) {
+      const std::vector<Row> found = relations(orbit, chosen);
+      own = found.size();
+      if (own == 0) return;
+      span.insert(span.end(), found.begin(), found.end());
     }
+    span = echelon(span, monomials_.size());
+    if (span.size() == own + 1) try_quotients(span);
   }
 
   void try_quotients(const std::vector<Row>& basis) {
@@ -326,6 +340,7 @@ class Search {
 
   const MapModel& map_;
   const search::Watch& watch_;
+  int degree_;
   PrimeField field_;
   std::mt19937_64 random_{20190101};
   ModularProgram program_;  ///< the map and its Jacobian matrix

@@ -67,6 +67,18 @@ TEST(SearchMap, SaysNoneOnlyWhereThereIsNone) {
 }
 
 // x + 2147483659*y is kept, and no fraction below 2^30 is its coefficient: that is said.
+/// Up to a higher degree an orbit lies on products of the hypersurfaces of a lower one as well.
+TEST(SearchMap, FindsQuotientsOfLowerDegreesToo) {
+  const MapSearch found = search_map(plane("[map]\nx = \"x^2\"\ny = \"x*y\"\n"), 2);
+  ASSERT_EQ(found.integrals.size(), 1U);
+  EXPECT_EQ(found.integrals[0].text, "(y)/(x)");
+  EXPECT_TRUE(found.reason.empty()) << found.reason;
+  // Of period 5: what is found is a quotient of densities.
+  const MapSearch pentagon = search_map(plane("[map]\nx = \"y\"\ny = \"(1 + y)/x\"\n"), 3);
+  EXPECT_GE(pentagon.integrals.size(), 1U);
+  EXPECT_TRUE(pentagon.reason.empty()) << pentagon.reason;
+}
+
 TEST(SearchMap, SaysThatLargeCoefficientsAreNotShown) {
   const MapSearch found =
       search_map(plane("[map]\nx = \"x + 2147483659*y^2\"\ny = \"y - y^2\"\n"), 1);

@@ -39,6 +39,36 @@ TEST(HeaderName, TwoScenesLiveInOneProgram) {
             0);
 }
 
+/// y' = sign(x) from x = 0: whether the motion goes to the right is not known before its terms are.
+TEST(Header, SeriesThatBeginAtAJumpAreNoNumbers) {
+  const Folder folder;
+  folder.write("jump.toml", R"toml(
+title = "jump"
+[phase_space]
+variables = ["x", "y"]
+[equations]
+x = "1"
+y = "sign(x)"
+[[scene]]
+name = "default"
+initial = { x = "0", y = "0" }
+duration = "1"
+)toml");
+  generate(folder, {"./jump.toml", "--with", "taylor", "-o", "jump.hpp"});
+  EXPECT_EQ(result_of(folder, "c++ -std=c++20", "main.cpp", R"cpp(
+#include "jump.hpp"
+              int main() {
+                double series[8];
+                jump::taylor<3>(jump::initial_state, series);
+                const double beside[] = {-1, 0};
+                if (!std::isnan(series[3]) || series[2] != 1) return 1;
+                jump::taylor<3>(beside, series);
+                return series[3] == -1 ? 0 : 2;
+              }
+            )cpp"),
+            0);
+}
+
 TEST(HeaderName, CHasItAsPrefix) {
   const Folder folder;
   generate(folder, {"kovalevskaya", "--language", "c", "-o", "one.h"});
