@@ -59,7 +59,7 @@ std::vector<NamedExpression> proved_invariants(const Model& model) {
 Verdict verdict_on_identities(const Model& model, std::vector<Identity> identities) {
   Model own = model;
   own.identities = std::move(identities);
-  // Both sides are continuous where they have values, so that they are equal there too.
+  // Conditions u != 0 leave out surfaces alone; conditions u >= 0 leave out one side.
   return verdict_on(proofs_of(own, ClaimKind::identity), [](const Proof& proof) {
     return proof.positive.empty() && proof.not_zero.empty();
   });

@@ -20,7 +20,8 @@ Verdict verdict_on_jacobi(const Model& model, const Scene& scene);
 /// \param model  without arbitrary functions.
 std::vector<NamedExpression> proved_invariants(const Model& model);
 
-/// Whether all of these hold for each state and each value of the parameters that the case allows.
+/// Whether all of these hold for each state, but for those on some surfaces, and for each value of
+/// the parameters that the case allows.
 /// \param model  without arbitrary functions.
 Verdict verdict_on_identities(const Model& model, std::vector<Identity> identities);
 
