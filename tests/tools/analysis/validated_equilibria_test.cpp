@@ -100,8 +100,9 @@ name = "default"
 initial = { q = "1", p = "0" }
 duration = "1"
 )toml");
-  for (const ProvedEquilibrium& proof : both(model, model.scene("default")).proofs)
-    EXPECT_FALSE(proof.proved);
+  const std::vector<ProvedEquilibrium> proofs = both(model, model.scene("default")).proofs;
+  ASSERT_EQ(proofs.size(), 1U);
+  EXPECT_FALSE(proofs[0].proved);
 }
 
 TEST(ValidatedEquilibria, NothingIsProvedWithAFalseCasimirFunction) {
