@@ -41,7 +41,8 @@ TEST(Environment, OtherSystemsAreInterpretedAndItIsSaid) {
   const Outcome compiled = run(arguments, {}, {{"CASIMIR_CACHE", with_compiler.path().string()}});
   EXPECT_EQ(compiled.json().at("warnings").dump().find("interpreted"), std::string::npos);
   const auto state = compiled.json().at("state");
-  for (const auto& [name, value] : outcome.json().at("state").items()) {
+  const auto states = outcome.json().at("state");
+  for (const auto& [name, value] : states.items()) {
     EXPECT_NEAR(std::stod(value.get<std::string>()), std::stod(state.at(name).get<std::string>()),
                 1e-12)
         << name;
