@@ -13,6 +13,7 @@
 #include "codegen/dag/vanishing.hpp"
 #include "codegen/optimise/optimise.hpp"
 #include "codegen/optimise/terms.hpp"
+#include "codegen/positive.hpp"
 #include "codegen/real_constants.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/model/given_functions.hpp"
@@ -154,10 +155,35 @@ class Specialiser {
     });
   }
 
+  /// Whether a run-time parameter occurs in it.
+  bool stays_open(const GiNaC::ex& expression) const {
+    return std::ranges::any_of(parameter_indices_, [&](std::size_t i) {
+      return depends(expression, model_.parameters[i]);
+    });
+  }
+
+  /// q^n is computed as exp(n*log(q)) where n stays open, which has a value for positive q only:
+  /// the scene itself, with n = 4, may be about any q.
+  void note_powers_left_out(const GiNaC::ex& expression) {
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+      if (!GiNaC::is_a<GiNaC::power>(*part) || !stays_open(part->op(1)) ||
+          codegen::is_shown_positive(part->op(0)))
+        continue;
+      const auto text = [&](const GiNaC::ex& e) {
+        return general_dag_.text(general_dag_.convert(e));
+      };
+      const std::string base = text(part->op(0)) + " <= 0";
+      const auto same = [&](const LeftOut& item) { return item.name == base; };
+      if (std::ranges::none_of(result_.left_out, same))
+        leave_out("values", base, "the code computes " + text(*part));
+    }
+  }
+
   /// What the code can compute for other values of its run-time parameters it must be able to
   /// compute for those of the scene too.
   void check_at_scene(const std::string& what, const GiNaC::ex& expression) {
     if (parameter_indices_.empty()) return;
+    within(what, [&] { note_powers_left_out(expression); });
     within(what, [&] { return general_dag_.convert(model_.at_parameters(expression, scene_)); });
   }
 

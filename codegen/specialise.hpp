@@ -18,8 +18,8 @@ using codegen::OperationCount;
 
 /// Something that the case file has and the generated code does not.
 struct LeftOut {
-  std::string kind;    ///< "parameter", "state", "invariant", "term", "time"
-  std::string name;    ///< "r", "g3", "K", "M1*M2 in dM3", "t"
+  std::string kind;    ///< "parameter", "state", "invariant", "term", "time", "values"
+  std::string name;    ///< "r", "g3", "K", "M1*M2 in dM3", "t", "q <= 0"
   std::string reason;  ///< "folded to 1", "not needed for M1, g1", ..
 };
 

@@ -72,6 +72,30 @@ TEST(KeepParameters, NothingVanishesBecauseOfOneValue) {
   EXPECT_EQ(exact(equal.rhs, {1, 1, 1, 2, 2, 1, 0})[0], 1);
 }
 
+TEST(KeepParameters, APowerThatStaysOpenSaysForWhichValuesItIsCode) {
+  const std::string scene =
+      "[parameters]\nn = {}\nk = {}\n[[scene]]\nname = \"default\"\nparameters = { n = \"2\", "
+      "k = \"3\" }";
+  const auto left_out = [&](const std::string& rate, const SpecialiseOptions& options) {
+    std::vector<std::string> values;
+    for (const LeftOut& item : specialised(equations({{"u", rate}}, scene), options).left_out)
+      if (item.kind == "values") values.push_back(item.name + ": " + item.reason);
+    return values;
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(left_out("k*u^n", keeping({"n"})), Lines{"u <= 0: the code computes exp(n*log(u))"});
+  EXPECT_EQ(left_out("k*u^n", keeping_all()), Lines{"u <= 0: the code computes exp(n*log(u))"});
+  EXPECT_EQ(left_out("u^k*u^n", keeping({"n"})).size(), 1U);
+  // With n = 2 in the code it is u*u.
+  EXPECT_EQ(left_out("k*u^n", {}), Lines{});
+  EXPECT_EQ(left_out("k*u^n", keeping({"k"})), Lines{});
+  for (const char* positive : {"2", "(1 + u^2)", "exp(u)", "(sqrt(u) + Pi)", "(3*exp(u)*cosh(u))"})
+    EXPECT_EQ(left_out(std::string(positive) + "^n", keeping_all()), Lines{}) << positive;
+  for (const char* other : {"u^2", "(u^2 - 1)", "(u + exp(u))", "u^3"})
+    EXPECT_EQ(left_out("(" + std::string(other) + ")^n", keeping_all()).size(), 1U) << other;
+  EXPECT_EQ(left_out("exp(n*u)", keeping_all()), Lines{});
+}
+
 TEST(KeepParameters, StatesThatNobodyNeedsAreStillLeftOut) {
   SpecialiseOptions options = keeping_all();
   options.observe = {"u"};
