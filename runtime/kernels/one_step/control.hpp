@@ -122,17 +122,20 @@ class Pace {
  public:
   explicit Pace(double t) : t_(t) {}
 
-  /// Asked at every trial: at the pace of the last million of them, would the rest take more than
-  /// 2^36, a day and a night?
+  /// Asked at every trial, or after several: at the pace of the last million of them, would the
+  /// rest take more than 2^36, a day and a night?
   bool hopeless(unsigned long long trials, double t, double end) {
-    if (__builtin_expect(trials == 0 || (trials & (kTrials - 1)) != 0, 1)) return false;
+    if (__builtin_expect(trials < next_, 1)) return false;
     const double moved = magnitude(t - t_);
+    const double since = static_cast<double>(trials - next_ + kTrials);
     t_ = t;
-    return moved * (0x1p36 / kTrials) < magnitude(end - t);
+    next_ = trials + kTrials;
+    return moved * 0x1p36 < since * magnitude(end - t);
   }
 
  private:
   static constexpr unsigned long long kTrials = 1ULL << 20;
+  unsigned long long next_ = kTrials;
   double t_;
 };
 
