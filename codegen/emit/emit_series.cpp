@@ -6,12 +6,17 @@
 namespace casimir::codegen {
 namespace {
 
-std::string packed(const std::string& target, const std::vector<std::string>& entries,
+/// As arguments behind another.
+std::string further(const std::vector<std::string>& arguments) {
+  std::string text;
+  for (const std::string& argument : arguments) text += ", " + argument;
+  return text;
+}
+
+std::string packed(const std::string& target, const std::vector<std::string>& numbers,
                    const std::string& indent) {
-  if (entries.empty()) return "";
-  std::string text = indent + "pack(" + target;
-  for (const std::string& entry : entries) text += ", " + entry;
-  return wrapped(text + ");") + "\n";
+  if (numbers.empty()) return "";
+  return wrapped(indent + "pack(" + target + further(numbers) + ");") + "\n";
 }
 
 std::string begin_function(const SeriesRecurrences& r) {
@@ -25,25 +30,74 @@ std::string begin_function(const SeriesRecurrences& r) {
   return text + r.begin + packed("rate", r.rates, "      ") + "    }\n";
 }
 
-std::string expand_function(const SeriesRecurrences& r) {
-  std::vector<std::string> next_states, left, right;
+/// What stands in the sums of a kernel, coefficients of order k.
+struct Operands {
+  std::vector<std::string> left, right;
+};
+
+Operands operands_of(const SeriesRecurrences& r) {
+  Operands result;
   for (const SeriesSum& s : r.sums) {
-    left.push_back(s.weighted ? "k * " + s.left + "_k" : s.left + "_k");
-    right.push_back(s.right + "_k");
+    result.left.push_back(s.weighted ? "k * " + s.left + "_k" : s.left + "_k");
+    result.right.push_back(s.right + "_k");
   }
+  return result;
+}
+
+/// Of more sums, what the newest coefficients add to each costs more than to wait for all of them.
+constexpr std::size_t kFewSums = 8;
+
+bool has_few_sums(const SeriesRecurrences& r) { return r.sums.size() <= kFewSums; }
+
+/// What sums are formed of, for the orders that follow.
+std::string packed_operands(const SeriesRecurrences& r) {
+  const Operands operands = operands_of(r);
+  return packed("left_[k]", operands.left, "        ") +
+         packed("right_[k]", operands.right, "        ");
+}
+
+/// The sums of order k + 1, of which `form_sums` has all but what the coefficients of order k add:
+/// l[1] r[k] + l[k] r[1], of order 2 the first alone.
+std::string sums_of_next_order(const SeriesRecurrences& r) {
+  const Operands operands = operands_of(r);
+  const std::string indent = "        ";
+  std::string text =
+      wrapped(indent + "if (k == 1) store(first_left_" + further(operands.left) + ");") + "\n";
+  for (std::size_t i = 0; i < r.sums.size(); ++i) {
+    const std::string place = "[" + std::to_string(i) + "]";
+    text +=
+        wrapped(indent + "sum_" + place + " = formed_" + place + " + first_left_" + place + " * " +
+                operands.right[i] + " + " + operands.left[i] + " * first_right_" + place + ";") +
+        "\n";
+  }
+  return text +
+         wrapped(indent + "if (k == 1) store(first_right_" + further(operands.right) + ");") + "\n";
+}
+
+std::string expand_function(const SeriesRecurrences& r) {
+  std::vector<std::string> next_states;
   std::string text = "    void expand(double unit) {\n";
   text += "      for (int b = 0; b < blocks; ++b) c[1][b] = rate[b] * unit;\n";
   for (std::size_t i = 0; i < r.states; ++i) {
     text += "      double " + r.inputs[i] + "_k = lane(c[1], " + std::to_string(i) + ");\n";
     next_states.push_back(r.inputs[i] + "_k");
   }
+  const bool few = has_few_sums(r);
+  if (!few) {
+    text += "      const double* const sum_ = formed_;\n";
+  } else if (!r.sums.empty()) {
+    text += "      double sum_[" + std::to_string(r.sums.size()) + "] = {};\n" +
+            "      for (double& first : first_right_) first = 0;\n";
+  }
   text +=
       "      for (int k = 1; k < order; ++k) {\n"
       "        [[maybe_unused]] const double by_k = casimir_kernel::taylor::reciprocal.of[k];\n";
   if (r.uses_time) text += "        const double " + r.inputs.back() + "_k = k == 1 ? unit : 0;\n";
-  if (!r.sums.empty()) text += "        form_sums(k);\n";
-  text += r.next + packed("left_[k]", left, "        ") + packed("right_[k]", right, "        ") +
-          "        const casimir_kernel::taylor::Part<double> step(unit, k + 1);\n";
+  if (!r.sums.empty())
+    text += few ? "        form_sums<2>(k + 1);\n" : "        form_sums<1>(k);\n";
+  text += r.next + packed_operands(r);
+  if (few && !r.sums.empty()) text += sums_of_next_order(r);
+  text += "        const casimir_kernel::taylor::Part<double> step(unit, k + 1);\n";
   // A rate may be another state as it is: all are formed before any is replaced.
   for (std::size_t i = 0; i < r.states; ++i)
     text += "        const double " + r.inputs[i] + "_next = step * (" + r.next_rates[i] + ");\n";
@@ -58,7 +112,8 @@ std::string series_struct(const Program& rhs, const std::vector<std::string>& na
                           const Limits& limits) {
   const SeriesRecurrences r = series_recurrences(rhs, names, SeriesValue::number, limits);
   const std::string base = "casimir_kernel::taylor::Convolved<" + std::to_string(r.states) + ", " +
-                           std::to_string(r.sums.size()) + ">";
+                           std::to_string(r.sums.size()) +
+                           (has_few_sums(r) ? ", true>" : ", false>");
   return "  // Taylor coefficients of solutions: values at the state, and coefficient k of "
          "each.\n"
          "  struct Series : " +

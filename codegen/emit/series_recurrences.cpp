@@ -2,8 +2,10 @@
 #include "codegen/emit/series_recurrences.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "codegen/emit/identifiers.hpp"
@@ -16,6 +18,15 @@ namespace casimir::codegen {
 
 namespace {
 
+/// What the kernels call their own members and locals.
+std::vector<std::string> names_of_kernels() {
+  std::istringstream names(
+      "V S c rate order p most states blocks groups smooth width sums_width few sums the_states k "
+      "by_k step unit state at begin expand form_sums formed_ lane pack store fill row enter inner "
+      "room begun_ series_ sum_ each left_ right_ first_left_ first_right_");
+  return {std::istream_iterator<std::string>(names), {}};
+}
+
 /// Writes two passes over the program: the values at a state, which stay as members (`v3`), and
 /// coefficient k of the same quantities (`v3_k`).
 class SeriesWriter {
@@ -26,12 +37,10 @@ class SeriesWriter {
         lanes_(value == SeriesValue::lanes),
         program_(without_dead_code(rhs)),
         constant_(constant_instructions(program_)),
-        unique_({"V",      "c",      "rate",   "order",     "p",    "most", "states", "blocks",
-                 "groups", "smooth", "width",  "k",         "by_k", "step", "unit",   "state",
-                 "at",     "begin",  "expand", "form_sums", "lane", "pack", "row",    "enter",
-                 "inner",  "room",   "begun_", "series_",   "sum_", "each"}),
+        unique_(names_of_kernels()),
         value_(program_.code.size()),
         varies_(program_.code.size(), false),
+        depth_(program_.code.size(), 0),
         states_(program_.outputs.size()) {
     for (const std::string& name : names) inputs_.push_back(fresh(name));
   }
@@ -118,6 +127,7 @@ class SeriesWriter {
       write_input(i);
     } else {
       varies_[i] = varies_[index(c.a)] || (c.b >= 0 && varies_[index(c.b)]);
+      depth_[i] = 1 + std::max(depth(c.a), depth(c.b));
       value_[i] = member("v" + std::to_string(++count_));
       write_operation(i);
     }
@@ -125,13 +135,22 @@ class SeriesWriter {
 
   void write_input(std::size_t i) {
     const std::size_t input = index(code(i).a);
-    varies_[i] = input < states_ || input + 1 == inputs_.size();
+    varies_[i] = input < states_ ? !stays(input) : input + 1 == inputs_.size();
     value_[i] = inputs_[input];
     if (input >= states_ && input + 1 < inputs_.size()) used_parameters_.insert(input);
     uses_time_ = uses_time_ || input + 1 == inputs_.size();
   }
 
+  /// Whether the rate of a state is the number 0.
+  bool stays(std::size_t state) const {
+    const int rate = program_.outputs[state];
+    if (!constant_[index(rate)] || !is_rational(program_, rate)) return false;
+    return zerop(constant_value(program_, rate, limits_));
+  }
+
   bool varies(int i) const { return i >= 0 && varies_[index(i)]; }
+  /// How many operations coefficient k waits for that stand one behind the other.
+  int depth(int i) const { return varies(i) ? depth_[index(i)] : 0; }
   const std::string& at(int i) const { return value_[index(i)]; }
   std::string next(int i) const { return varies(i) ? value_[index(i)] + "_k" : "0."; }
 
@@ -173,7 +192,11 @@ class SeriesWriter {
     if (!varies(c.a)) return assign_next(value_[i], a + " * " + next(c.b));
     if (!varies(c.b)) return assign_next(value_[i], next(c.a) + " * " + b);
     if (c.a == c.b) return assign_next(value_[i], sum(a, a) + " + 2 * " + a + " * " + a + "_k");
-    assign_next(value_[i], sum(a, b) + " + " + a + " * " + b + "_k + " + a + "_k * " + b);
+    // What is known last is added last.
+    const std::string of_a = a + "_k * " + b, of_b = a + " * " + b + "_k";
+    const bool a_is_last = depth(c.a) > depth(c.b);
+    assign_next(value_[i],
+                sum(a, b) + " + " + (a_is_last ? of_b + " + " + of_a : of_a + " + " + of_b));
   }
 
   /// y b = a.
@@ -185,8 +208,13 @@ class SeriesWriter {
     if (!varies(c.b)) return assign_next(y, next(c.a) + " / " + b);
     const std::string inverse = member(y + "_inverse");
     assign_value(inverse, "1 / " + b);
-    assign_next(y,
-                "(" + next(c.a) + " - " + y + " * " + b + "_k - " + sum(y, b) + ") * " + inverse);
+    // y/b, as one factor of b_k, may leave the range of numbers where y and b do not.
+    const std::string of_b = y + " * (" + b + "_k * " + inverse + ")",
+                      inner = sum(y, b) + " * " + inverse;
+    if (!varies(c.a)) return assign_next(y, "-" + inner + " - " + of_b);
+    const std::string of_a = next(c.a) + " * " + inverse;
+    assign_next(y, depth(c.a) > depth(c.b) ? of_a + " - (" + inner + " + " + of_b + ")"
+                                           : of_a + " - " + inner + " - " + of_b);
   }
 
   std::string called(std::string_view function, const std::string& arguments) const {
@@ -201,9 +229,10 @@ class SeriesWriter {
     const std::string &a = at(c.a), &y = value_[i];
     if (c.op == Op::sign) return write_sign(i);
     const FunctionRow& row = function_row(c.op);
-    assign_value(y, called(row.c_name, c.b < 0 ? a : a + ", " + at(c.b)));
+    const std::string value = called(row.c_name, c.b < 0 ? a : a + ", " + at(c.b));
+    if (varies_[i] && row.partner != c.op) return write_pair(i, row, value);
+    assign_value(y, value);
     if (!varies_[i]) return;
-    if (row.partner != c.op) return write_pair(i, row);
     switch (row.step[0].rule) {
       case SeriesRule::power:
         return write_power(y, a, at(c.b));
@@ -302,36 +331,38 @@ class SeriesWriter {
   void write_ratio(const std::string& y, const std::string& numerator, const std::string& f) {
     const std::string inverse = member(y + "_inverse");
     assign_value(inverse, "1 / " + f);
-    assign_next(y, "(" + numerator + " - " + slope(y, f) + ") * " + inverse);
+    assign_next(y, "(" + numerator + ") * " + inverse + " - " + slope(y, f) + " * " + inverse);
   }
 
   /// y y = a.
   void write_root(const std::string& y, const std::string& next_of_square) {
     const std::string half = member(y + "_half");
     assign_value(half, "0.5 / " + y);
-    assign_next(y, "(" + next_of_square + " - " + sum(y, y) + ") * " + half);
+    assign_next(y, "(" + next_of_square + ") * " + half + " - " + sum(y, y) + " * " + half);
   }
 
   /// a y' = e y a'.
   void write_power(const std::string& y, const std::string& a, const std::string& e) {
-    const std::string inverse = member(y + "_inverse");
+    const std::string inverse = member(y + "_inverse"), scaled = member(y + "_scaled");
     assign_value(inverse, "1 / " + a);
-    assign_next(y, "(" + e + " * (" + a + "_k * " + y + " + " + slope(a, y) + ") - " + slope(y, a) +
-                       ") * " + inverse);
+    assign_value(scaled, e + " * " + y);
+    assign_next(y, scaled + " * (" + a + "_k * " + inverse + ") + (" + e + " * " + slope(a, y) +
+                       " - " + slope(y, a) + ") * " + inverse);
   }
 
   /// Each of the two needs the other.
-  void write_pair(std::size_t i, const FunctionRow& row) {
+  void write_pair(std::size_t i, const FunctionRow& row, const std::string& value) {
     const Instruction& c = code(i);
     const std::string& a = at(c.a);
     const bool is_first = row.first == c.op;
     const auto [place, is_new] = pairs_.try_emplace({row.first, c.a});
     auto& [first, second] = place->second;
     if (!is_new) {  // the other came before and wrote both
-      next_ += "        const " + real() + " " + value_[i] + "_k = " + (is_first ? first : second) +
-               "_k;\n";
-      return;
+      const std::string& known = is_first ? first : second;
+      assign_value(value_[i], known);
+      return assign_next(value_[i], known + "_k");
     }
+    assign_value(value_[i], value);
     const std::string name(function_row(row.partner).name);
     const std::string partner = member(value_[i] + "_" + name);
     first = is_first ? value_[i] : partner;
@@ -389,6 +420,7 @@ class SeriesWriter {
   Names unique_;
   std::vector<std::string> value_;
   std::vector<bool> varies_;
+  std::vector<int> depth_;
   std::vector<std::string> inputs_;
   const std::size_t states_;
   std::set<std::size_t> used_parameters_;

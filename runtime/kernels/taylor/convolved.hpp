@@ -8,19 +8,27 @@ namespace casimir_kernel::taylor {
 /// Storage for the recurrences of a straight-line program.
 ///
 /// Every product, quotient and function of a series needs sums of l[j] r[k-j] over the earlier
-/// coefficients of two series. The inner terms of these sums, j = 1 .. k-1, depend on no
-/// coefficient of order k: all sums of the program are formed side by side in the lanes of
-/// registers, before the rest of order k is done one operation after the other.
+/// coefficients of two series. They are formed side by side in the lanes of registers, before the
+/// rest of order k is done one operation after the other. Packed into registers, all wait for the
+/// last coefficient of order k-1.
+///
+/// Where there are few, that is most of the time of an order. Then their terms j = 2 .. k-2 alone
+/// are formed so, one order before, while the processor waits for other things; what the newest
+/// coefficients add follows for each sum by itself, as soon as both are there.
 ///
 /// Only the recurrences are compiled for each system: what steps along the series is precompiled
 /// (called_series.hpp) and finds `rate` and `c` at the beginning.
-template <int the_states, int sums>
+/// \tparam few  whether the newest coefficients are added to each sum by itself.
+template <int the_states, int sums, bool few>
 struct Convolved {
   static constexpr int width = kNativeWidth;
   using V = Lanes<width>;
   static constexpr int most = 24;  // the highest order
   static constexpr int states = the_states, blocks = (states + width - 1) / width;
-  static constexpr int groups = (sums + width - 1) / width;
+  /// Registers of four leave an execution unit to what is not in registers of eight.
+  static constexpr int sums_width = few && width > 4 ? 4 : width;
+  using S = Lanes<sums_width>;
+  static constexpr int groups = sums > 0 ? (sums + sums_width - 1) / sums_width : 1;
 
   V rate[blocks];
   V c[most + 1][blocks];
@@ -28,40 +36,49 @@ struct Convolved {
   const double* p;
 
  protected:
-  V left_[most][groups > 0 ? groups : 1], right_[most][groups > 0 ? groups : 1];
-  double sum_[groups > 0 ? width* groups : 1];
+  S left_[most][groups], right_[most][groups];
+  double formed_[sums_width * groups], first_left_[sums_width * groups],
+      first_right_[sums_width * groups];
 
   static CASIMIR_INLINE double lane(const V* x, int i) { return x[i / width][i % width]; }
 
   /// The numbers, side by side, in as many registers as they need.
-  template <class... Numbers>
-  static CASIMIR_INLINE void pack(V* to, Numbers... numbers) {
-    const double all[(sizeof...(numbers) + width - 1) / width * width] = {numbers...};
+  template <class Register, class... Numbers>
+  static CASIMIR_INLINE void pack(Register* to, Numbers... numbers) {
+    constexpr int room = sizeof(Register) / sizeof(double);
+    const double all[(sizeof...(numbers) + room - 1) / room * room] = {numbers...};
     fill<0>(to, all);
   }
 
-  /// The inner terms of order k of every sum.
+  template <class... Numbers>
+  static CASIMIR_INLINE void store(double* to, Numbers... numbers) {
+    ((*to++ = numbers), ...);
+  }
+
+  /// The terms j = first .. k - first of order k of every sum.
+  template <int first>
   CASIMIR_INLINE void form_sums(int k) {
     CASIMIR_UNROLL
     for (int g = 0; g < groups; ++g) {
-      V even = V{}, odd = V{};
-      int j = 1;
-      for (; j + 1 < k; j += 2) {
+      S even = S{}, odd = S{};
+      int j = first;
+      for (; j + first < k; j += 2) {
         even += left_[j][g] * right_[k - j][g];
         odd += left_[j + 1][g] * right_[k - j - 1][g];
       }
-      if (j < k) even += left_[j][g] * right_[k - j][g];
+      if (j + first <= k) even += left_[j][g] * right_[k - j][g];
       even += odd;
-      __builtin_memcpy(sum_ + width * g, &even, sizeof even);
+      __builtin_memcpy(formed_ + sums_width * g, &even, sizeof even);
     }
   }
 
  private:
-  template <int b, int count>
-  static CASIMIR_INLINE void fill(V* to, const double (&all)[count]) {
+  template <int b, class Register, int count>
+  static CASIMIR_INLINE void fill(Register* to, const double (&all)[count]) {
     static constexpr long long lanes[] = {0, 1, 2, 3, 4, 5, 6, 7};
-    to[b] = collected<V>(all + b * width, lanes);
-    if constexpr ((b + 1) * width < count) fill<b + 1>(to, all);
+    constexpr int room = sizeof(Register) / sizeof(double);
+    to[b] = collected<Register>(all + b * room, lanes);
+    if constexpr ((b + 1) * room < count) fill<b + 1>(to, all);
   }
 };
 

@@ -101,6 +101,25 @@ TEST(Taylor, EveryOperationHasItsRecurrence) {
   }
 }
 
+/// What a recurrence forms besides the terms themselves may leave the range of numbers: y/b where
+/// y = a/b, which is a/b^2.
+TEST(Taylor, QuotientsAndPowersHoldAtEveryScale) {
+  const auto expect_end = [](const std::string& rate, double b, double d, double end) {
+    const Specialisation s =
+        specialised(equations({{"b", "b"}, {"c", "2*c"}, {"d", "0"}, {"z", rate}}));
+    for (const auto& [form, module] : forms(s)) {
+      const Trajectory orbit = run_taylor(module, settings_for(1, 1e-13), {b, b, d, 0});
+      EXPECT_EQ(orbit.status, Status::ok) << rate << ' ' << form << ' ' << b << orbit.reason;
+      EXPECT_NEAR(orbit.state[3], end, 1e-13) << rate << ' ' << form << ' ' << b;
+      EXPECT_LT(orbit.steps, 20U) << rate << ' ' << form << ' ' << b;
+    }
+  };
+  for (const double scale : {1e170, 1e158, 1., 1e-155, 1e-170})
+    expect_end("(1/b + 1/c)*d", scale, scale, 1.5 - std::exp(-1.) - std::exp(-2.) / 2);
+  for (const double scale : {1e90, 1., 1e-90})
+    expect_end("b^(-5/3)*d", scale, std::pow(scale, 5. / 3), 0.6 * (1 - std::exp(-5. / 3)));
+}
+
 /// A sign that was taken of the bits of a NaN would be a number that nobody sees through.
 TEST(Taylor, OfWhatHasNoValueThereIsNoSign) {
   const Specialisation s = specialised(equations({{"x", "1"}, {"y", "sign(log(x))"}}));
