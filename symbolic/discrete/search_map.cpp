@@ -354,6 +354,7 @@ class Search {
 }  // namespace
 
 MapSearch search_map(const MapModel& map, int degree, const search::Watch& watch) {
+  if (degree < 0) throw ModelError("the degree of a search is not negative");
   const std::size_t n = map.base.variables.size();
   const double size = search::count_monomials(std::vector<int>(n, 1), degree);
   constexpr double kMostMonomials = 3000;
@@ -367,9 +368,14 @@ MapSearch search_map(const MapModel& map, int degree, const search::Watch& watch
           "'{}' is assumed, and a search is for generic values: a definition can say it", a.text));
   }
   MapSearch found = Search(map, degree, watch).find();
-  if (map.base.assumptions.empty()) return found;
-  Prover prover(map.base, {}, Subject::functions);
-  if (const auto thin = thin_assumptions(prover)) {
+  std::vector<GiNaC::ex> functions = map.next;
+  functions.insert(functions.end(), map.next_domain.begin(), map.next_domain.end());
+  // Quotients of polynomials have values at almost all points, and may be large.
+  std::erase_if(functions,
+                [](const GiNaC::ex& f) { return f.info(GiNaC::info_flags::rational_function); });
+  if (functions.empty() && map.base.assumptions.empty()) return found;
+  Prover prover(map.base, functions, Subject::functions);
+  if (const auto thin = thin_domain(prover)) {
     found.no_polynomial = found.no_fraction = false;
     found.not_generic = found.reason = *thin;
   }

@@ -89,7 +89,7 @@ bool have_values_between_steps(const MapModel& map, const std::vector<ex>& funct
     if (have_values_everywhere(map.base, functions)) return true;
     if (!are_rational(map, functions)) return false;
     Prover prover(map.base, functions, Subject::functions);
-    return !thin_assumptions(prover) && have_values_at_some_point(map, functions);
+    return !thin_domain(prover) && have_values_at_some_point(map, functions);
   } catch (const ModelError&) {  // one of them has a value nowhere, or is too large to be looked at
     return false;
   }

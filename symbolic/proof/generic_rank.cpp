@@ -222,7 +222,7 @@ std::size_t rank_of_constants(const PolynomialRows& rows, std::size_t variables)
     values.emplace_back();
     for (const Polynomial& p : row) values.back().push_back(p.evaluate(anywhere));
   }
-  return rank(std::move(values));
+  return rank(values);
 }
 
 constexpr std::size_t kPointsOfPiece = 4;  // of a piece
@@ -238,7 +238,7 @@ PiecePoints::PiecePoints(Prover& prover, const std::vector<Polynomial>& function
   } else {
     sort_by_signs(what);
   }
-  if (pieces_.empty() || !thin_assumptions(prover)) return;
+  if (pieces_.empty() || !thin_domain(prover)) return;
   for (Piece& piece : pieces_) piece.rigid = false;
   where_ = "around " + pieces_[0].points[0].text() + (where_.empty() ? "" : ", " + where_);
 }

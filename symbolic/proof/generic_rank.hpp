@@ -59,7 +59,7 @@ class PiecePoints {
     std::vector<RealPoint> points;
     /// A point shows what holds at almost all points of the piece; else only of its connected part,
     /// so that each point has to be looked at. So it is, too, where the assumptions leave no open
-    /// set, see `thin_assumptions`.
+    /// set, see `thin_domain`.
     bool rigid = true;
   };
   /// Of those that were found, each with at least one point.

@@ -220,7 +220,7 @@ DarbouxReport DarbouxSearch::run() {
   }
   // Last, since it takes time.
   if (report_.complete) {
-    if (const auto doubt = thin_assumptions(system_)) leave_open(*doubt);
+    if (const auto doubt = thin_domain(system_)) leave_open(*doubt);
   }
   return report_;
 }

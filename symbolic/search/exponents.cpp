@@ -281,7 +281,7 @@ void Analysis::find_balances() {
     return;
   }
   if (!report_.generic.empty()) {
-    if (const auto thin = thin_assumptions(leading_.system())) {
+    if (const auto thin = thin_domain(leading_.system())) {
       report_.reason = *thin;
       return;
     }

@@ -6,7 +6,7 @@
 namespace casimir::search {
 
 /// As of a prover, of the one that the search has.
-std::optional<std::string> thin_assumptions(System& system);
+std::optional<std::string> thin_domain(System& system);
 
 /// Everything that one search of a case needs, from reading to proof.
 class Finder {

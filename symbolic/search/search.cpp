@@ -176,9 +176,7 @@ void Finder::check_level() {
   }
 }
 
-std::optional<std::string> thin_assumptions(System& system) {
-  return thin_assumptions(system.prover());
-}
+std::optional<std::string> thin_domain(System& system) { return thin_domain(system.prover()); }
 
 /// What else has to hold, for "no other" to be about functions.
 void Finder::doubt() {
@@ -189,7 +187,7 @@ void Finder::doubt() {
   };
   undecided(level_reason_);
   undecided(unknown_relations(system_));
-  if (report_.complete) undecided(thin_assumptions(system_));
+  if (report_.complete) undecided(thin_domain(system_));
 }
 
 /// What is not zero in the ring may still be zero as a function: atan(-x) + atan(x).
@@ -280,6 +278,7 @@ Report Finder::run() {
 }
 
 Report find_integrals(const Model& model, const Request& request, const Watch& watch) {
+  if (request.degree < 0) throw ModelError("the degree of a search is not negative");
   if (request.casimirs && !model.poisson)
     throw ModelError("a Casimir function needs a bracket, which this case does not have");
   return Finder(model, request, watch).run();

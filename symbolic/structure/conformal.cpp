@@ -257,7 +257,7 @@ void ConformalSearch::doubt() {
   for (const ConformalTensor& own : report_.found)
     if (own.verdict != Verdict::proved) leave_open("a tensor was found but not proved");
   if (!report_.complete_rational && !report_.complete_constants) return;
-  if (const auto reason = search::thin_assumptions(equations_.system())) leave_open(*reason);
+  if (const auto reason = search::thin_domain(equations_.system())) leave_open(*reason);
 }
 
 ConformalReport ConformalSearch::run() {

@@ -267,7 +267,7 @@ OrbitalReport OrbitalSearch::run() {
   for (const OrbitalSymmetry& own : report_.found)
     if (own.verdict != Verdict::proved) leave_open("a field was found but not proved");
   if (!report_.complete) return report_;
-  if (const auto doubt = search::thin_assumptions(system_)) leave_open(*doubt);
+  if (const auto doubt = search::thin_domain(system_)) leave_open(*doubt);
   return report_;
 }
 

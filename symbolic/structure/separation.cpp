@@ -243,7 +243,7 @@ bool SeparationSearch::look_with(const std::vector<Polynomial>& integrals) {
 std::optional<std::string> SeparationSearch::doubt_of_none() {
   search::System& system = leaves_->system();
   if (auto reason = search::unknown_relations(system)) return reason;
-  if (auto reason = search::thin_assumptions(system)) return reason;
+  if (auto reason = search::thin_domain(system)) return reason;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < leaves_->dimension(); ++i) places.push_back(i);
   if (!leaves_->on().empty() && !search::is_shown_real_and_prime(leaves_->ideal(), places))

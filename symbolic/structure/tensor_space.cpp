@@ -61,7 +61,7 @@ void TensorSpace::search_up_to(int degree, const Watch& watch) {
   }
   if (!complete_) return;
   std::optional<std::string> doubt = search::unknown_relations(system_);
-  if (!doubt) doubt = search::thin_assumptions(system_);
+  if (!doubt) doubt = search::thin_domain(system_);
   if (!doubt) return;
   complete_ = false;
   reason_ = *doubt;

@@ -160,7 +160,7 @@ std::size_t RealPoint::rank(const PolynomialRows& rows) {
       exact.emplace_back();
       for (const Polynomial& p : row) exact.back().push_back(p.is_zero() ? 0 : p.evaluate(exact_));
     }
-    return casimir::rank(std::move(exact));
+    return casimir::rank(exact);
   }
   std::vector<std::vector<Ball>> matrix = values(rows);
   const long bits = evaluator_.bits();
@@ -247,6 +247,17 @@ std::vector<ex> RealPoints::draw() {
                                  : way == 4
                                      ? GiNaC::numeric(between(1, 29), 30)
                                      : GiNaC::numeric(between(-19, 19), between(1, 4)) * size;
+    point.emplace_back(value);
+  }
+  return point;
+}
+
+std::vector<ex> RealPoints::draw_wide() {
+  std::vector<ex> point;
+  for (std::size_t i = 0; i < ring_.symbols().size(); ++i) {
+    GiNaC::numeric value(std::uniform_int_distribution<int>(-999, 999)(random_), 100);
+    for (int k = std::uniform_int_distribution<int>(-5, 5)(random_); k != 0; k += k < 0 ? 1 : -1)
+      value = k < 0 ? value / 10 : value * 10;
     point.emplace_back(value);
   }
   return point;

@@ -105,6 +105,9 @@ class RealPoints {
 
   /// Coordinates for the ring's symbols, without a look at the assumptions.
   std::vector<GiNaC::ex> draw();
+  /// The same, from a millionth to a million: for functions that have values far from 0 alone, or
+  /// close to it.
+  std::vector<GiNaC::ex> draw_wide();
   /// The same; many are 0, 1 or -1, or parts of Pi if these are asked for.
   std::vector<GiNaC::ex> draw_simple(bool parts_of_pi = false);
 

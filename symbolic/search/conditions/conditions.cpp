@@ -436,6 +436,7 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
 
 ConditionReport find_conditions(const Model& model, const Request& request,
                                 const std::vector<Text>& free, const Watch& watch) {
+  if (request.degree < 0) throw ModelError("the degree of a search is not negative");
   return ConditionFinder(model, request, watch).run(free_places(model, free));
 }
 

@@ -36,6 +36,27 @@ TEST(SearchMap, FindsPolynomialsAndQuotients) {
   EXPECT_FALSE(lyness.no_fraction);
 }
 
+TEST(SearchMap, RefusesANegativeDegree) {
+  EXPECT_THROW(search_map(with_values("lyness", {{"a", "2"}}), -1), ModelError);
+}
+
+TEST(SearchMap, SaysNothingWhereAParameterHasOneValueAlone) {
+  // Real at a = 0 alone, where x^2 + y^2 is an integral.
+  for (const char* lost : {"0*acos(1 + a^2)", "0*sqrt(-a^2)"}) {
+    const MapSearch found =
+        search_map(plane("[parameters]\na = {}\n[map]\nx = \"y\"\ny = \"-x + a*y^2 + " +
+                         std::string(lost) + "\"\n"),
+                   2);
+    EXPECT_FALSE(found.no_polynomial) << lost;
+    EXPECT_FALSE(found.no_fraction) << lost;
+    EXPECT_FALSE(found.not_generic.empty()) << lost;
+  }
+  // A map of rational functions is not looked at: with 18 parameters it takes a while.
+  EXPECT_TRUE(search_map(with_values("qrt", {}), 1).no_polynomial);
+  EXPECT_TRUE(search_map(plane("[parameters]\na = {}\n[map]\nx = \"y\"\ny = \"-x + a*y^2\"\n"), 2)
+                  .no_polynomial);
+}
+
 TEST(SearchMap, FindsTheIntegralsOfKahansEulerTop) {
   const MapModel map =
       with_values("kahan-euler", {{"a1", "1"}, {"a2", "3"}, {"a3", "2"}, {"eps", "1"}});

@@ -166,6 +166,37 @@ TEST(Proved, AFactorWithoutRealRootsIsNoValueAndAnIrrationalRootIsConfirmedOrLef
   EXPECT_TRUE(imaginary.conditions.empty());
 }
 
+TEST(Proved, ANegativeDegreeIsRefused) {
+  const Model model = model_of(along_x("n*x"));
+  EXPECT_THROW(search::find_integrals(model, up_to(-1)), ModelError);
+  EXPECT_THROW(conditions(along_x("n*x"), -1, {"n"}), ModelError);
+}
+
+/// Equations that are real at one value of a alone: an oscillator.
+std::string real_at_zero_alone(const std::string& rest) {
+  return "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\na = {}\n[equations]\nx = \"y\"\n"
+         "y = \"-x + a*x^2*y" +
+         rest + "\"\n";
+}
+
+TEST(Proved, NothingIsSaidOfGenericValuesWhereThereAreNone) {
+  EXPECT_TRUE(search::find_integrals(model_of(real_at_zero_alone("")), up_to(2)).complete);
+  EXPECT_TRUE(search::find_darboux(model_of(real_at_zero_alone("")), 1).complete);
+  for (const char* rest : {" + 0*acos(1 + a^2)", " + acos(1 + a^2)*x", " + 0*sqrt(-a^2)*y"}) {
+    const Model model = model_of(real_at_zero_alone(rest));
+    const search::Report report = search::find_integrals(model, up_to(2));
+    EXPECT_FALSE(report.complete) << rest;
+    EXPECT_NE(report.reason.find("special values"), std::string::npos) << report.reason;
+    EXPECT_FALSE(search::find_darboux(model, 1).complete) << rest;
+  }
+}
+
+TEST(Proved, FunctionsThatAreRealFarFromZeroOrCloseToItAloneHideNothing) {
+  for (const char* rest : {" + 0*log(x - 3000)", " + 0*sqrt(1/1000000 - (x - 17/1000)^2)"})
+    EXPECT_TRUE(search::find_integrals(model_of(real_at_zero_alone(rest)), up_to(2)).complete)
+        << rest;
+}
+
 /// dx/dt = a*x, dy/dt = b*y, with these assumptions: x^m*y^n is an integral where m*a + n*b = 0.
 std::string resonance(const std::string& a, const std::string& b) {
   return "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\n" + a + "\n" + b +

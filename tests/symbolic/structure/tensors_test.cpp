@@ -75,6 +75,20 @@ TEST(Tensors, DoNotCountABracketThatTheFlowDoesNotKeep) {
   EXPECT_EQ(own.found[0].verdict, Verdict::proved);
 }
 
+/// At a = 0, where the equations are real, dx/dt and dy/dt are the bracket {x,y} = 1 itself.
+TEST(Tensors, AreNotSaidToBeAllWhereAParameterHasOneValueAlone) {
+  const auto system = [](const std::string& rest) {
+    return model_of(
+        "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\na = {}\n[equations]\n"
+        "x = \"y\"\ny = \"-x + a*x^2*y" +
+        rest + "\"\n");
+  };
+  EXPECT_TRUE(structure::find_tensors(system(""), kBivectors, 1).complete);
+  const TensorReport report = structure::find_tensors(system(" + 0*acos(1 + a^2)"), kBivectors, 1);
+  EXPECT_FALSE(report.complete);
+  EXPECT_NE(report.reason.find("special values"), std::string::npos) << report.reason;
+}
+
 /// The same spaces from the equations alone: what was known is found.
 TEST(Tensors, AreFoundWithoutTheBracket) {
   Model model = bundled("clebsch");
