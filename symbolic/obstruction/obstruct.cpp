@@ -17,26 +17,27 @@
 #include "symbolic/obstruction/normal_variation.hpp"
 #include "symbolic/obstruction/particular_curve.hpp"
 #include "symbolic/obstruction/points/straight_lines_in_space.hpp"
+#include "symbolic/obstruction/real_domain.hpp"
 
 namespace casimir::obstruction {
 namespace {
 
 constexpr const char* kTheorem =
     "Morales-Ruiz and Ramis (2001): where a Hamiltonian system with n degrees of freedom has n "
-    "independent meromorphic integrals in involution near a curve of motion, the Galois group of "
-    "the variational equations along it has an abelian identity component";
+    "independent meromorphic integrals in involution near a complex curve of motion, the Galois "
+    "group of the variational equations along it has an abelian identity component";
 
 constexpr const char* kHigherTheorem =
     "Morales-Ruiz, Ramis and Simo (2007): where a Hamiltonian system with n degrees of freedom has "
-    "n independent meromorphic integrals in involution near a curve of motion, the Galois group of "
-    "the variational equations of each order along it has an abelian identity component";
+    "n independent meromorphic integrals in involution near a complex curve of motion, the Galois "
+    "group of the variational equations of each order along it has an abelian identity component";
 
 /// Curves along which the equations of higher order are examined.
 constexpr std::size_t kMostCurvesOfHigherOrder = 12;
 
 /// The integrals that an examined equation excludes.
 std::string excluded_by(const Examined& examined, std::size_t freedom, bool casimirs) {
-  const std::string kind = examined.regular ? "meromorphic in a neighbourhood of the curve"
+  const std::string kind = examined.regular ? "meromorphic in a neighbourhood of the complex curve"
                                             : "rational in the variables";
   const std::string where = casimirs ? " on that level of the Casimir functions" : "";
   if (freedom == 2)
@@ -155,7 +156,6 @@ class SurfaceSearch {
         continue;
       }
       result_.proved = true;
-      result_.rational.reset();
       result_.rational.reset();
       return;
     }
@@ -340,12 +340,12 @@ void say_excluded(const HamiltonianSystem& system, Obstruction& result) {
   result.excluded =
       planar ? fmt::format(
                    "for every other real {}: every integral{} that is meromorphic in a "
-                   "neighbourhood of the curves and functionally independent of H",
+                   "neighbourhood of the complex curves and functionally independent of H",
                    result.free, where)
              : fmt::format(
                    "for every other real {}: every set of {} functionally independent "
                    "integrals in involution, H among them,{} that are meromorphic in a "
-                   "neighbourhood of the curves",
+                   "neighbourhood of the complex curves",
                    result.free, (system.variables.size() - system.casimirs.size()) / 2, where);
 }
 
@@ -359,6 +359,10 @@ Obstruction find_obstruction(const Model& model, const ObstructionRequest& reque
     const HamiltonianSystem system = hamiltonian_system(model, request.scene, request.free);
     if (system.variables.size() <= system.casimirs.size() + 2)
       throw NotDecided("a system with one degree of freedom has H, and needs no further integral");
+    if (!has_inner_points(system))
+      throw NotDecided(
+          "no real point was found around which the Hamiltonian and all that it is written with "
+          "have values inside the assumptions");
     if (system.free)
       decide_family(system, along, request.order, watch, result);
     else

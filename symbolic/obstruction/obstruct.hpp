@@ -84,9 +84,12 @@ struct ObstructionRequest {
 /// in involution as degrees of freedom (Morales-Ruiz and Ramis, Methods Appl. Anal. 8 (2001) 33 and
 /// 97).
 ///
-/// The theorem is about n integrals that are meromorphic in a neighbourhood of the curve, in
-/// involution and functionally independent there; it says that the group's identity component, and
-/// so that of every equation which the variational ones are taken apart into, is abelian. Checked:
+/// The theorem is about n integrals that are meromorphic in a neighbourhood of the complex curve,
+/// in involution and functionally independent there; it says that the group's identity component,
+/// and so that of every equation which the variational ones are taken apart into, is abelian. The
+/// curve is followed on all loops around its singular points, be they in the domain or not: H = (1
+/// + x^2) px + (py^2 + (1 + x) y^2)/2 has another integral that is analytic at all real points, and
+/// many-valued about x = i. Checked: that there are real points at all (`has_inner_points`),
 /// that the curve is a solution and no point of rest (`make_curve`), that the surface is invariant
 /// and the level a symplectic leaf along the curve (`normal_variation`), that the group has no
 /// solvable identity component (`decide_liouvillian`). Where the equation has an irregular singular

@@ -5,8 +5,11 @@ namespace casimir::obstruction {
 /// The part of the file for Coq that is the same for all: vectors over Q, when one is told apart
 /// from others by a witness, and the two images of polynomials.
 inline constexpr const char* kCoqVectors =
-    R"coq((** The linear algebra of a proof that a differential equation y'' = r y has no
-    Liouvillian solution: certain polynomials do not exist. *)
+    R"coq((** A part of a proof that a differential equation y'' = r y has no Liouvillian
+    solution: its linear algebra, and bounds of degrees. What is stated here is that
+    polynomials of certain degrees do not exist, or that a degree is negative. Not stated
+    are the equation, that these are the degrees and the equations of such polynomials
+    (Kovacic 1986, Ulmer and Weil 1996), nor what follows for integrals. *)
 From Coq Require Import QArith List Bool Setoid.
 Import ListNotations.
 Open Scope Q_scope.

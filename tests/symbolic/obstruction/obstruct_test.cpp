@@ -56,6 +56,26 @@ TEST(Obstruct, CubicPotentials) {
     EXPECT_TRUE(refuted(planar(fmt::format("(px^2 + py^2)/2 + {}", v)))) << v;
 }
 
+TEST(Obstruct, AHamiltonianWithoutRealValuesIsNotJudged) {
+  const std::string cubic = "(px^2 + py^2)/2 + x^2*y + y^3";
+  EXPECT_TRUE(refuted(planar(cubic)));
+  for (const char* lost : {"0*sqrt(x^2 + 1)", "0*log(x - 50)"})
+    EXPECT_TRUE(refuted(planar(cubic + " + " + lost))) << lost;
+  for (const char* lost : {"0*sqrt(-x^2 - 1)", "0*acos(2)", "0*acos(1 + y^2)", "0*log(-x^2)"}) {
+    const Obstruction answer = obstruction_of(planar(cubic + " + " + lost));
+    EXPECT_FALSE(answer.proved) << lost;
+    EXPECT_NE(answer.reason.find("no real point"), std::string::npos) << answer.reason;
+  }
+}
+
+TEST(Obstruct, TheCurveIsSaidToBeComplex) {
+  // y (1 + x^2) f'(x) - py f(x) is an integral, analytic at all real points, where f solves the
+  // equation along y = py = 0, whose coefficients are singular at x = I and -I alone.
+  const Obstruction answer = obstruction_of(planar("(1 + x^2)*px + (py^2 + (1 + x)*y^2)/2"));
+  EXPECT_TRUE(answer.proved);
+  EXPECT_NE(answer.excluded.find("complex curve"), std::string::npos) << answer.excluded;
+}
+
 TEST(Obstruct, QuarticPotentials) {
   for (const char* v : {"x^4 + 3*y^4", "x^4 + 6*x^2*y^2 + y^4", "x^4 + 12*x^2*y^2 + 16*y^4",
                         "x^4 + 6*x^2*y^2 + 8*y^4", "(x^2 + y^2)^2"})

@@ -152,7 +152,7 @@ void print(const Model& model, const Obstruction& answer, double seconds, bool a
     print_line("excluded", answer.excluded);
   }
   if (answer.proved) {
-    fmt::print("not integrable{}: proved, {:.3f} s\n",
+    fmt::print("not integrable by meromorphic integrals{}: proved, {:.3f} s\n",
                answer.free.empty() ? "" : " where nothing survives", seconds);
   } else {
     fmt::print("undecided: {}, {:.3f} s\n", answer.reason, seconds);
