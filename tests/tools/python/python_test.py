@@ -57,6 +57,33 @@ class Cases(unittest.TestCase):
         with self.assertRaises(casimir.ModelError):
             top.in_variables("euler-angels")
 
+    def test_names_in_expressions_of_sympy_are_those_of_the_case(self):
+        import sympy
+
+        names = ["pi1", "Pi1", "spin", "pi"]
+        pi1, other, spin, pi = (sympy.Symbol(name) for name in names)
+        case = casimir.Case(equations={"pi1": pi1, "Pi1": 2*other, "spin": pi, "pi": sympy.pi*spin}, variables=names,
+                            initial=dict.fromkeys(names, 1))
+        np.testing.assert_allclose(case.system().rhs(0, [2, 3, 5, 7]), [2, 6, 7, 5*math.pi], rtol=1e-15)
+        still = casimir.Case(equations={"pi1": "1", "Pi1": "0"}, variables=["pi1", "Pi1"])
+        self.assertEqual(still.verify(integral=pi1).verdict, "refuted")
+        self.assertEqual(still.verify(integral=other).verdict, "proved")
+        self.assertEqual(case.sympy("Pi*pi"), sympy.pi*pi)
+        word = casimir.Case(equations={"lambda": "-lambda"}, variables=["lambda"])
+        self.assertEqual(word.sympy("2*lambda^2"), 2*sympy.Symbol("lambda")**2)
+
+    def test_numbers_of_sympy_are_exactly_those_that_they_are(self):
+        import sympy
+
+        x = sympy.Symbol("x")
+        for number in (2.0**53 + 2, 1/3, -0.1, 123456789012345678.0, 1e-300):
+            case = casimir.Case(equations={"x": sympy.Float(number)*x}, variables=["x"], initial={"x": 1})
+            self.assertEqual(case.system().rhs(0, [1.0])[0], number)
+        case = casimir.Case(equations={"x": sympy.Abs(x) + sympy.E*x**2}, variables=["x"], initial={"x": 1})
+        self.assertAlmostEqual(case.system().rhs(0, [-2.0])[0], 2 + 4*math.e, places=14)
+        with self.assertRaises(casimir.Error):
+            casimir.Case(equations={"x": sympy.Float("nan")*x}, variables=["x"])
+
     def test_an_unknown_name_gets_the_nearest(self):
         with self.assertRaises(casimir.CaseError) as caught:
             casimir.load("kovalevskya")
@@ -100,6 +127,26 @@ class Cases(unittest.TestCase):
             top.integrate(duration=1, initial={"M1": math.nan})
         with self.assertRaises(casimir.RequestError):
             top.integrate(duration=1, initial={"M1": True})
+
+
+    def test_numbers_out_of_range_are_refused(self):
+        top, lyness = casimir.load("euler"), casimir.load_map("lyness")
+        for ask in (lambda: top.search(-1), lambda: lyness.search(-1), lambda: top.rational(-1), lambda: top.darboux(-1),
+                    lambda: top.tensors(1, -1), lambda: top.bihamiltonian(-1), lambda: top.orbital_symmetries(-1),
+                    lambda: top.kahan_degrees(-1), lambda: lyness.degrees(-1), lambda: top.frequencies(lines=0),
+                    lambda: top.integrate(step=0), lambda: top.integrate(observe=[]), lambda: top.enclose(digits=-5),
+                    lambda: top.enclose(sample_every=0), lambda: top.enclose(sample_every=-1)):
+            with self.assertRaises(casimir.RequestError):
+                ask()
+
+    def test_an_option_with_the_name_of_a_parameter_is_said_to_be_taken_as_the_option(self):
+        case = casimir.Case(equations={"x": "step*x"}, variables=["x"], parameters={"step": 1}, initial={"x": 1},
+                            duration=1)
+        with self.assertWarnsRegex(UserWarning, "with_values"):
+            case.integrate(step=0.5, method="dop853")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertAlmostEqual(case.with_values({"step": 0.5}).integrate().y[0, -1], math.exp(0.5), places=12)
 
 
 class Maps(unittest.TestCase):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Union
 
 from . import _core
 from ._errors import NoAnswer, RequestError
-from ._exact import Expression, is_float, pairs_of, reals, text_of, texts_of
+from ._options import options_first
+from ._exact import Expression, is_float, pairs_of, reals, text_of, texts_of, whole
 from ._lazy import Lazy
 from ._progress import Progress, told
 from ._system import System
@@ -50,6 +52,11 @@ _results, _measured, _program = Lazy("._results"), Lazy("._measured"), Lazy("._p
 
 #: One expression, or several.
 Expressions = Union[Expression, Iterable[Expression], None]
+
+
+def _degree(degree: int) -> int:
+    return whole("degree", degree, 0, 1000)
+
 
 #: The variables of algebras that have usual names for them.
 _USUAL = {
@@ -225,8 +232,13 @@ class Case:
         import sympy
 
         text = self._core.expression(text_of(expression))[0]
-        names = {name: sympy.Symbol(name) for name in self.variables + self.parameters}
-        return sympy.sympify(text.replace("^", "**").replace("Pi", "pi"), locals=names, rational=True)
+        # Letters of its own for each name: SymPy reads some as constants or as words of Python.
+        names = self.variables + self.parameters
+        own = {name: f"name{k}_" for k, name in enumerate(names)}
+        words = {"Pi": "pi", "^": "**"}
+        text = re.sub(r"[A-Za-z_][A-Za-z_0-9]*|\^", lambda m: own.get(m[0]) or words.get(m[0], m[0]), text)
+        symbols = {own[name]: sympy.Symbol(name) for name in names}
+        return sympy.sympify(text, locals=symbols, rational=True)
 
     def _repr_latex_(self) -> str:
         shown = self.show("latex")
@@ -276,7 +288,7 @@ class Case:
         if free is not None:
             if casimirs or on is not None:
                 raise RequestError("free parameters go with neither casimirs nor a level")
-            facts = self._core.conditions(degree, texts_of(free), texts_of(functions), pairs_of(weights),
+            facts = self._core.conditions(_degree(degree), texts_of(free), texts_of(functions), pairs_of(weights),
                                           time_limit, memory)
             return _results.Conditions(
                 _results.search_of(facts["generic"]),
@@ -285,7 +297,7 @@ class Case:
                 facts["complete"],
                 facts["reason"],
             )
-        facts = self._core.search(degree, casimirs, texts_of(on), texts_of(functions), pairs_of(weights), time_limit,
+        facts = self._core.search(_degree(degree), casimirs, texts_of(on), texts_of(functions), pairs_of(weights), time_limit,
                                   memory)
         return _results.search_of({**facts, "not_on": self._core.constraints_left_out(texts_of(on))})
 
@@ -305,9 +317,9 @@ class Case:
         """
         if free is not None:
             return self._findings(
-                _core.darboux_conditions(self._core, degree, texts_of(free), time_limit, memory),
+                _core.darboux_conditions(self._core, _degree(degree), texts_of(free), time_limit, memory),
                 "values of parameters")
-        return [_results.DarbouxPolynomial(**one) for one in self._core.darboux(degree, time_limit, memory)["found"]]
+        return [_results.DarbouxPolynomial(**one) for one in self._core.darboux(_degree(degree), time_limit, memory)["found"]]
 
     def rational(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Integrals that are quotients of polynomials, with factors up to a degree.
@@ -315,7 +327,7 @@ class Case:
         >>> Case(equations={"x": "2*x", "y": "3*y"}, variables=["x", "y"]).rational(1).found
         ['x^3/y^2']
         """
-        return self._findings(_core.rational(self._core, degree, time_limit, memory), "rational integrals")
+        return self._findings(_core.rational(self._core, _degree(degree), time_limit, memory), "rational integrals")
 
     def tensors(self, rank: int, degree: int, *, forms: bool = False, conformal: bool = False,
                 time_limit: float = 0, memory: float = 0) -> Findings:
@@ -333,9 +345,9 @@ class Case:
         """
         if conformal:
             return self._findings(
-                _core.conformal_tensors(self._core, rank, forms, degree, time_limit, memory),
+                _core.conformal_tensors(self._core, rank, forms, _degree(degree), time_limit, memory),
                 "conformal forms" if forms else "conformal tensors")
-        return self._findings(_core.tensors(self._core, rank, forms, degree, time_limit, memory),
+        return self._findings(_core.tensors(self._core, rank, forms, _degree(degree), time_limit, memory),
                                  "forms" if forms else "tensors")
 
     def orbital_symmetries(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
@@ -346,7 +358,7 @@ class Case:
         >>> load("euler").orbital_symmetries(1).verdict
         'proved'
         """
-        return self._findings(_core.orbital_symmetries(self._core, degree, time_limit, memory), "orbital symmetries")
+        return self._findings(_core.orbital_symmetries(self._core, _degree(degree), time_limit, memory), "orbital symmetries")
 
     def hamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Poisson brackets of the equations of motion alone, up to a degree, with their Hamiltonians.
@@ -354,11 +366,11 @@ class Case:
         >>> Case(equations={"q": "p", "p": "-q"}, variables=["q", "p"]).hamiltonian(0)[0]["hamiltonian"]
         '(q^2 + p^2)/2'
         """
-        return self._findings(_core.brackets(self._core, degree, False, time_limit, memory), "brackets")
+        return self._findings(_core.brackets(self._core, _degree(degree), False, time_limit, memory), "brackets")
 
     def bihamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Second brackets, compatible with that of the case, with their Lenard chains."""
-        return self._findings(_core.brackets(self._core, degree, True, time_limit, memory), "second brackets")
+        return self._findings(_core.brackets(self._core, _degree(degree), True, time_limit, memory), "second brackets")
 
     def separation(self, degree: int = 2, *, on: Expressions = None, roots: Expression | None = None,
                    time_limit: float = 0, memory: float = 0) -> Separations:
@@ -372,7 +384,7 @@ class Case:
         >>> load("henon-heiles").separation(1)[0]["separated"]
         'proved'
         """
-        return _results.Separations(_core.separation(self._core, degree, texts_of(on), texts_of(roots), time_limit,
+        return _results.Separations(_core.separation(self._core, _degree(degree), texts_of(on), texts_of(roots), time_limit,
                                                      memory), "systems of variables that separate")
 
     def symmetries(self, *, time_limit: float = 0, memory: float = 0) -> Findings:
@@ -439,7 +451,7 @@ class Case:
         >>> load("euler").kahan_degrees(8).growth
         'polynomial'
         """
-        return _results.Degrees(**_core.kahan_degrees(self._core, iterates, time_limit, memory))
+        return _results.Degrees(**_core.kahan_degrees(self._core, whole("iterates", iterates, 0, 1000), time_limit, memory))
 
     # Numbers.
 
@@ -458,6 +470,7 @@ class Case:
         return self._core.generate(scene, list(keep), None if observe is None else list(observe), jacobian,
                                    variational, taylor, language, name)
 
+    @options_first
     def integrate(self, t_eval: ArrayLike | None = None, *, initial: Mapping[str, Expression] | None = None,
                   duration: float | None = None, scene: str = "default", method: str = "auto",
                   tolerance: float | None = None, rtol: float | None = None, atol: float | None = None,
@@ -496,6 +509,10 @@ class Case:
             raise RequestError(f"t_eval goes to {times[numpy.abs(times).argmax()]:g}, beyond the duration {duration:g}")
         if max_steps < 0:
             raise RequestError("max_steps is not negative; 0 is no limit")
+        if step is not None and not step > 0:
+            raise RequestError(f"step is {step}, and has to be positive")
+        if observe is not None and len(observe) == 0:
+            raise RequestError("observe names no state: leave it out for all of them")
         motion = _core.integrate(case._core, scene, method, duration, tolerance, rtol, atol, step, max_steps, observe,
                                  project, time_limit, told(progress))
         return _results.solution_of(motion, times)
@@ -549,6 +566,7 @@ class Case:
         """The right-hand side of the scene 'default' as a function f(t, y), for SciPy's solvers."""
         return self.system().rhs
 
+    @options_first
     def precise(self, digits: int, *, duration: Expression | None = None, scene: str = "default",
                 initial: Mapping[str, Expression] | None = None, time_limit: float = 0,
                 progress: Progress = None, **parameters: Expression) -> PreciseEnd:
@@ -566,6 +584,7 @@ class Case:
             _core.precise(case._core, scene, digits, None if duration is None else text_of(duration), time_limit,
                           told(progress)))
 
+    @options_first
     def enclose(self, *, duration: Expression | None = None, initial_radius: Expression = 0,
                 ranges: Mapping[str, tuple[Expression, Expression]] | None = None, digits: int = 0,
                 sample_every: Expression | None = None, certificate: str | PathLike[str] | None = None,
@@ -586,6 +605,8 @@ class Case:
         (True, True)
         """
         case = self if parameters is None and initial is None else self.with_values(parameters, initial)
+        if digits:
+            whole("digits", digits, 17, 5000)
         intervals = [(str(name), (text_of(low), text_of(high))) for name, (low, high) in (ranges or {}).items()]
         facts = _core.enclosed(case._core, scene, None if duration is None else text_of(duration),
                                text_of(initial_radius), intervals, digits,
@@ -616,7 +637,7 @@ class Case:
         >>> [round(one, 9) for one in swing.frequencies(duration=1000).base]
         [1.0]
         """
-        return _measured.Frequencies(**_core.frequencies(self._core, scene, method, lines, duration, tolerance,
+        return _measured.Frequencies(**_core.frequencies(self._core, scene, method, whole("lines", lines, 1, 40), duration, tolerance,
                                                          time_limit, told(progress)))
 
     def compare(self, *, methods: Sequence[str] = (), tolerances: Sequence[float] = (1e-3, 1e-6, 1e-9, 1e-12),
@@ -695,6 +716,7 @@ class Case:
             _write_certificate(certificate, facts)
         return _results.section_of(facts)
 
+    @options_first
     def symmetric_cycle(self, symmetry: Mapping[str, Expression], *, period: float | None = None,
                         keep_period: bool = False, tolerance: float = 1e-14, scene: str = "default",
                         initial: Mapping[str, Expression] | None = None, time_limit: float = 0,

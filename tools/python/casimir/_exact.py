@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from fractions import Fraction
 from numbers import Rational
 from typing import TYPE_CHECKING, Any, Union
@@ -16,6 +17,33 @@ if TYPE_CHECKING:
 #: What stands for an exact number or an expression: text in the notation of case files, an integer,
 #: a fraction, a float (which is exactly the number that it is: 0.1 is not 1/10), or a SymPy expression.
 Expression = Union[str, int, float, Fraction, Any]
+
+
+@lru_cache(maxsize=None)
+def _sympy_printer() -> Any:
+    """What writes expressions of SymPy in the notation of case files."""
+    from sympy.printing.str import StrPrinter
+
+    class Printer(StrPrinter):
+        """Names of symbols as they are, constants and functions as case files call them, and numbers exactly."""
+
+        def _print_Pi(self, expression: Any) -> str:
+            return "Pi"
+
+        def _print_Exp1(self, expression: Any) -> str:
+            return "exp(1)"
+
+        def _print_Abs(self, expression: Any) -> str:
+            return f"abs({self._print(expression.args[0])})"
+
+        def _print_Float(self, expression: Any) -> str:
+            sign, mantissa, exponent, _ = expression._mpf_
+            if not mantissa and exponent:
+                raise RequestError(f"{expression} is not a number")
+            exact = (-1) ** sign * int(mantissa) * Fraction(2) ** exponent
+            return f"({text_of(exact)})"
+
+    return Printer()
 
 
 def text_of(value: Expression) -> str:
@@ -36,10 +64,21 @@ def text_of(value: Expression) -> str:
             raise RequestError(f"{value} is not a number")
         return text_of(Fraction(value))
     if hasattr(value, "free_symbols"):  # SymPy
-        return str(value).replace("**", "^").replace("pi", "Pi")
+        return str(_sympy_printer().doprint(value)).replace("**", "^")
     if hasattr(value, "item"):  # a scalar of NumPy
         return text_of(value.item())
     raise RequestError(f"{value!r} is no expression: text, a number or a SymPy expression is")
+
+
+def whole(name: str, value: int, low: int, high: int) -> int:
+    """The number, where it is in the range.
+
+    >>> whole("degree", 2, 0, 1000)
+    2
+    """
+    if not low <= value <= high:
+        raise RequestError(f"{name} is {value}, and goes from {low} to {high}")
+    return value
 
 
 def is_float(value: Expression) -> bool:

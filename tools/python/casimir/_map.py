@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Union
 
 from . import _core
-from ._exact import Expression, is_float, pairs_of, texts_of
+from ._exact import Expression, is_float, pairs_of, texts_of, whole
 from ._lazy import Lazy
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ class Map:
         >>> len(found), found.no_polynomial
         (1, True)
         """
-        return _results.MapSearch(**self._core.search(degree, time_limit, memory))
+        return _results.MapSearch(**self._core.search(whole("degree", degree, 0, 1000), time_limit, memory))
 
     def degrees(self, iterates: int = 0, *, time_limit: float = 0, memory: float = 0) -> Degrees:
         """The degrees of the iterates on a general line. What they suggest is evidence and no proof.
@@ -129,7 +129,7 @@ class Map:
         >>> load_map("henon-area-preserving").degrees(5).degrees
         [2, 4, 8, 16, 32]
         """
-        return _results.Degrees(**self._core.degrees(iterates, time_limit, memory))
+        return _results.Degrees(**self._core.degrees(whole("iterates", iterates, 0, 1000), time_limit, memory))
 
     def iterate(self, steps: int, *, every: int = 1, initial: Mapping[str, Expression] | None = None,
                 scene: str = "default", time_limit: float = 0, **parameters: Expression) -> Iterates:

@@ -166,8 +166,11 @@ py::object enclosed(
       throw RequestError("initial_radius: expected a number that is not negative");
     if (duration)
       options.duration = parse_real_constant(typed(*duration, "duration"), model.limits);
-    if (sample_every)
+    if (sample_every) {
       options.run.sample_every = rational_of(*sample_every, "sample_every", model.limits);
+      if (!cln::plusp(options.run.sample_every))
+        throw RequestError("sample_every: expected a positive number");
+    }
     options.run.digits = digits;
     options.run.give_up = [&](double share) {
       interrupt.show(share);
