@@ -252,6 +252,7 @@ double conditioning(const Entrant& entrant, const ReferenceState& truth, int tim
     for (std::size_t j = 0; j < truth.scale.size(); ++j) {
       const auto place = entrant.which.empty() ? j : static_cast<std::size_t>(entrant.which[j]);
       double growth = 0;
+      bool small = false;
       for (const double change : kChanges) {
         std::vector<double> moved = from;
         moved[place] += change * truth.scale[j];
@@ -259,8 +260,10 @@ double conditioning(const Entrant& entrant, const ReferenceState& truth, int tim
         if (neighbour.status != Status::ok) return kInfinity;
         const double apart = distance(neighbour.state, end.state);
         growth = std::max(growth, apart / change);
-        if (apart < kSmall) break;
+        small = apart < kSmall;
+        if (small) break;
       }
+      if (!small) return kInfinity;  // at least so many times, and nobody knows how many
       largest = std::max(largest, growth);
     }
     const Trajectory next = run(piece, from);

@@ -109,6 +109,13 @@ std::vector<Mean> means(const std::vector<MethodComparison>& contests) {
   return result;
 }
 
+std::string growth_sentence(const MethodComparison& contest) {
+  if (!std::isfinite(contest.conditioning))
+    return "small changes of the state grow beyond what runs in double precision can tell";
+  return fmt::format("small changes of the state grow {:.2g} times along the run at most",
+                     contest.conditioning);
+}
+
 std::vector<std::string> sentences(const MethodComparison& contest) {
   std::vector<std::string> result;
   for (const Line& line : equal_error_lines(contest)) {

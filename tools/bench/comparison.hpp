@@ -53,4 +53,7 @@ std::vector<Mean> means(const std::vector<MethodComparison>& contests);
 /// of another library.
 std::vector<std::string> sentences(const MethodComparison& contest);
 
+/// How much small changes of the state grow along the run.
+std::string growth_sentence(const MethodComparison& contest);
+
 }  // namespace casimir::tools

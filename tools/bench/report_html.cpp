@@ -109,10 +109,9 @@ std::string section(const MethodComparison& contest, std::size_t index,
       html::text(contest.title), html::text(contest.case_name), html::text(contest.scene));
   if (!contest.no_reference.empty())
     return text + html::paragraph("Not measured: " + contest.no_reference) + "</section>\n";
-  text += html::paragraph(fmt::format(
-      "Reference: {}; its error is below {:.0e}. Small changes of the state grow {:.2g} times "
-      "along the run at most.",
-      contest.reference, contest.error_bound, contest.conditioning));
+  text += html::paragraph(fmt::format("Reference: {}; its error is below {:.0e}, and {}.",
+                                      contest.reference, contest.error_bound,
+                                      growth_sentence(contest)));
   for (const std::string& note : contest.notes) text += html::paragraph("Note: " + note);
   text += picture.empty() ? html::paragraph("There is no picture: it needs gnuplot.")
                           : "<figure>\n" + picture + "</figure>\n";

@@ -58,8 +58,7 @@ std::string code_text(const MethodComparison& contest) {
 std::string about_text(const MethodComparison& contest) {
   std::string text = fmt::format("reference: {}; its error is below {:.0e}\n", contest.reference,
                                  contest.error_bound);
-  text += fmt::format("small changes of the state grow {:.2g} times along the run at most\n",
-                      contest.conditioning);
+  text += growth_sentence(contest) + '\n';
   const auto count = [&](bool failed) {
     return std::count_if(contest.rows.begin(), contest.rows.end(), [&](const Row& row) {
       return row.end == RowEnd::wrong && row.failed == failed;

@@ -180,6 +180,7 @@ Json run_json(const Model& model, const PreparedScene& run, const ComputedAnswer
   json["code"] = code.name;
   json["left_out"] = left_out_json(s);
   json["warnings"] = words.warnings;
+  json["end_in_doubt"] = words.end_in_doubt;
   json["trust"] = to_json(judged.trust);
   if (trajectory.status != Status::ok) {
     json["stopped"] = {{"time", exact_text(trajectory.time)},
@@ -291,7 +292,8 @@ int iterate_case(const MapCaseFile& file, const IntegrateArguments& options) {
   const bool of_methods = options.method != "auto" || asked.rtol || asked.atol || asked.tolerance ||
                           asked.step || asked.projects();
   if (of_methods || options.frequencies > 0 || options.picture.wanted() || options.general ||
-      !options.observe.empty() || !options.in.empty() || !options.as.empty() || options.jobs > 0)
+      !options.observe.empty() || !options.in.empty() || !options.as.empty() || options.jobs > 0 ||
+      asked.max_steps > 0 || options.kept.given())
     throw UsageError(
         "a map is iterated: of the options --scene, --param, --initial, --duration, --output and "
         "--every have a meaning");

@@ -135,10 +135,11 @@ std::string work_precision_part(const Findings& findings, const Pictures& pictur
   if (!findings.contest) return "";
   const MethodComparison& contest = *findings.contest;
   std::string text = "<section id=\"work-precision\">\n<h2>Error against run time</h2>\n";
-  text += html::paragraph(fmt::format(
-      "Scene {}. Reference: {}; its error is below {:.0e}. Small changes of the state grow {:.2g} "
-      "times along the run at most. Libraries beside ours are dashed, with open marks.",
-      contest.scene, contest.reference, contest.error_bound, contest.conditioning));
+  text += html::paragraph(
+      fmt::format("Scene {}. Reference: {}; its error is below {:.0e}, and {}. Libraries beside "
+                  "ours are dashed, "
+                  "with open marks.",
+                  contest.scene, contest.reference, contest.error_bound, growth_sentence(contest)));
   text += missing_picture(pictures);
   text += figure(pictures.work_precision, "work-precision",
                  "Run time against the error at the end: further left and down is better.");

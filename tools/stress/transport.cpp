@@ -6,7 +6,6 @@
 
 #include "symbolic/error.hpp"
 #include "tools/analysis/proof/exact_text.hpp"
-#include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/errors.hpp"
 
 namespace casimir::tools {
@@ -41,14 +40,6 @@ std::string complaint(const std::string& text) {
   std::string line = text.substr(0, text.find('\n'));
   if (line.starts_with(kBefore)) line.erase(0, kBefore.size());
   return printable(line, 200);
-}
-
-/// Whether the run said that its end state is not to be trusted. That the equations were
-/// interpreted is said beside, and no such warning.
-bool warned(const Json& answer) {
-  if (answer.at("trust").at("beyond_double") == true) return true;
-  return std::ranges::any_of(answer.at("warnings"),
-                             [](const Json& warning) { return warning != kInterpretedWarning; });
 }
 
 /// The status of that name.
@@ -122,7 +113,7 @@ StressAnswer answer_of(const Reply& reply) {
                       .compile_seconds = said.at("seconds").at("compile").get<double>(),
                       .steps = said.at("steps").get<unsigned long long>(),
                       .evaluations = said.at("evaluations").get<unsigned long long>(),
-                      .warned = warned(said),
+                      .warned = said.at("end_in_doubt").get<bool>(),
                       .warnings = said.at("warnings").dump(),
                       .stopped_at = {}};
   for (const auto& [name, value] : said.at("state").items())

@@ -136,13 +136,35 @@ TEST(Rotation, ChaosHasNone) {
 
 /// q'' = -w^2 q from (1, 0), up to a time.
 MotionFrequencies of_oscillator(const std::string& w, const std::string& duration,
-                                std::size_t lines) {
+                                std::size_t lines, const std::string& method = "auto") {
   const Model model =
       model_of("title = \"t\"\n[phase_space]\nvariables = [\"q\", \"p\"]\n[equations]\nq = \"" + w +
                "*p\"\np = \"-" + w + "*q\"\n[[scene]]\nname = \"default\"\n" +
                "initial = { q = \"1\", p = \"0\" }\nduration = \"" + duration + "\"\n");
   const PreparedScene run = prepare(model, model.scene("default"));
-  return analysed_motion(model, model.scene("default"), run, {}, lines).found;
+  return analysed_motion(model, model.scene("default"), run, {.method = method}, lines).found;
+}
+
+/// A method moves the frequency, sharply in both halves of the run.
+TEST(AnalysedMotion, ErrorsHoldWhatTheMethodAdds) {
+  for (const char* method : {"dop853", "dopri5", "gauss8", "cvode-bdf", "auto"}) {
+    const MotionFrequencies found = of_oscillator("sqrt(2)", "1000", 1, method);
+    ASSERT_EQ(found.base.size(), 1U) << method;
+    EXPECT_NEAR(found.base[0], std::numbers::sqrt2, found.base_errors[0]) << method;
+    EXPECT_NEAR(found.variables[0].lines[0].frequency, std::numbers::sqrt2,
+                found.variables[0].lines[0].error)
+        << method;
+  }
+  EXPECT_LT(of_oscillator("sqrt(2)", "1000", 1, "auto").base_errors[0], 1e-13);
+}
+
+/// The second line is of the size of the method's error, and no sign of faster motion.
+TEST(AnalysedMotion, ALineThatTheMethodMakesHidesNoBase) {
+  for (const char* method : {"dop853", "gauss8"}) {
+    const MotionFrequencies found = of_oscillator("sqrt(2)", "300", 2, method);
+    ASSERT_FALSE(found.base.empty()) << method;
+    EXPECT_NEAR(found.base[0], std::numbers::sqrt2, found.base_errors[0]) << method;
+  }
 }
 
 /// Samples at 4096 times in 1000 would show 20 at 5.7359, as sharply as if it were there.

@@ -194,6 +194,22 @@ TEST(Bench, APulseThatALibraryMissesIsWrongAndFailsNothing) {
   EXPECT_EQ(series.json().at("rows").at(0).at("status"), "ok");
 }
 
+TEST(Bench, GrowthBeyondWhatDoublesTellIsNotSaidToBeSoMuchAtMost) {
+  const Folder folder;
+  folder.write("lorenz.toml",
+               "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = \"10*(y - x)\"\n"
+               "y = \"28*x - y - x*z\"\nz = \"x*y - 8*z/3\"\n[[scene]]\nname = \"default\"\n"
+               "initial = { x = \"1\", y = \"1\", z = \"1\" }\nduration = \"60\"\n");
+  const auto text = [&](const char* duration) {
+    return run_in(folder, {"bench", "lorenz.toml", "--duration", duration, "--method", "dop853",
+                           "--tolerances", "1e-9", "--budget", "0.1"})
+        .out;
+  };
+  EXPECT_NE(text("60").find("beyond what runs in double precision"), std::string::npos)
+      << text("60");
+  EXPECT_NE(text("5").find("times along the run at most"), std::string::npos) << text("5");
+}
+
 TEST(Bench, ToleranceThatIsRefusedIsARow) {
   const auto json = run({"bench", "euler", "--method", "dop853,arkode-erk", "--tolerances",
                          "1e-9,1e-17", "--repeat", "1", "--json"})

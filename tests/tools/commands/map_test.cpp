@@ -121,6 +121,8 @@ TEST(MapCommands, IntegrateIterates) {
             0);
   EXPECT_EQ(run({"integrate", "lyness", "--duration", "1.5"}).status, 2);
   EXPECT_EQ(run({"integrate", "lyness", "--method", "taylor"}).status, 2);
+  EXPECT_EQ(run({"integrate", "lyness", "--max-steps", "3"}).status, 2);
+  EXPECT_EQ(run({"integrate", "lyness", "--keep-params"}).status, 2);
   const Outcome pole = run(
       {"integrate", "lyness", "--param", "a=-1", "--initial", "x=1", "--initial", "y=1", "--json"});
   EXPECT_EQ(pole.status, 5);

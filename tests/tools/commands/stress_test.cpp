@@ -84,6 +84,25 @@ TEST(Stress, FalseReferenceMakesTheAnswerWrong) {
   EXPECT_EQ(wrong.json().at("failed"), 1) << "other libraries' answers do not fail the command";
 }
 
+TEST(Stress, AWarningOfSomethingElseIsNoWarningOfTheEnd) {
+  const Folder folder;
+  const std::string scene =
+      "[[scene]]\nname = \"default\"\ninitial = { q = \"1\", p = \"0\" }\nduration = \"10\"\n"
+      "extreme = \"long\"\nreference = { q = \"0.1234567890123456789\", p = \"0.5\" }\n";
+  folder.write(
+      "refuted.toml",
+      "hamiltonian = \"p^2/2 + q^4/2\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical "
+      "= true\n[integrals]\nF = \"q*p\"\n" +
+          scene);
+  const Outcome run = run_in(folder, {"integrate", "refuted.toml", "--json"});
+  EXPECT_FALSE(run.json().at("warnings").empty());
+  EXPECT_EQ(run.json().at("end_in_doubt"), false);
+  const Outcome outcome =
+      run_in(folder, {"stress", "refuted.toml", "--method", "taylor,midpoint", "--json"});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_EQ(verdicts(outcome.json()).at("taylor"), "wrong");
+}
+
 TEST(Stress, OkWhereTheFileSaysThatNoMotionIsLeftIsWrong) {
   const Folder folder;
   folder.write("early.toml", escaping_case("duration = \"1/2\"\nextreme = \"blowup\"\n"));

@@ -16,6 +16,9 @@ namespace {
 
 /// Samples to begin with, and the most that are taken.
 constexpr std::size_t kFewestSamples = 4096, kMostSamples = std::size_t{1} << 18;
+/// Of a line that the error of a run makes of itself, or of a frequency that it moves: so many
+/// times what the error at the end says.
+constexpr double kOfError = 4;
 /// Beside the size of a state, an error of it that spoils frequencies.
 constexpr double kBadState = 1e-3;
 
@@ -103,13 +106,14 @@ std::vector<std::complex<double>> rest_of_rate(const AssessedRun& motion, std::s
 /// it is at another place then, and its rate there is not frequency * amplitude, but that of where
 /// it belongs. Each line is asked by itself, since a strong one that is in its place would hide a
 /// weak one that is not.
+/// \param noise  an amplitude that the error of the run may have: lines of that size are none.
 bool has_folded_line(const VariableSpectrum& variable, double interval,
-                     const std::vector<std::complex<double>>& rest) {
+                     const std::vector<std::complex<double>>& rest, double noise) {
   constexpr double kMissed = 0.5, kLeastKnown = 1e-3;
   const auto count = static_cast<double>(rest.size());
   return std::ranges::any_of(variable.lines, [&](const MotionLine& line) {
     const double frequency = std::abs(line.frequency);
-    if (!line.settled || line.error > kLeastKnown * frequency ||
+    if (!line.settled || line.error > kLeastKnown * frequency || line.amplitude <= noise ||
         frequency * count * interval < 2 * std::numbers::pi)
       return false;  // it is noise, or hardly a line
     Turning turning(-line.frequency, 0, interval), window(2 * std::numbers::pi / count, 0, 1);
@@ -119,6 +123,20 @@ bool has_folded_line(const VariableSpectrum& variable, double interval,
     const double said = frequency * line.amplitude / (variable.angle ? 1 : 2);
     return !(std::abs(there) / count <= kMissed * said);
   });
+}
+
+/// How far the states may be off along the run, relative to their sizes; 0 where it is not known.
+double error_of(const AssessedRun& motion) {
+  const ErrorEstimate& trust = motion.trust;
+  return trust.known ? std::max(trust.error_estimate, trust.samples_error.value_or(0)) : 0;
+}
+
+/// The square root of the mean square of a variable; of an angle that of exp(i q).
+double size_of(const AssessedRun& motion, std::size_t i, const VariableSpectrum& variable) {
+  if (variable.angle) return 1;
+  double square = 0;
+  for (const std::vector<double>& state : motion.trajectory.samples) square += state[i] * state[i];
+  return std::sqrt(square / static_cast<double>(motion.trajectory.samples.size()));
 }
 
 /// Whether the variables change faster than their lines say: then lines have been folded back to a
@@ -133,21 +151,39 @@ bool turns_faster(const AssessedRun& motion, const PreparedScene& run,
   for (std::size_t i = 0; i < found.variables.size(); ++i) {
     const VariableSpectrum& variable = found.variables[i];
     const auto count = static_cast<double>(rates[i].size());
-    double square = 0, size = 0;
-    for (std::size_t k = 0; k < rates[i].size(); ++k) {
-      square += rates[i][k] * rates[i][k] / count;
-      size += std::pow(motion.trajectory.samples[k][i], 2) / count;
-    }
+    double square = 0;
+    for (const double rate : rates[i]) square += rate * rate / count;
     // Of an angle q the lines are those of exp(i q), whose rate has the size of that of q.
-    double known = std::pow(variable.rest * highest, 2) * (variable.angle ? 1 : size);
+    const double size = size_of(motion, i, variable);
+    double known = std::pow(variable.rest * highest * size, 2);
     for (const MotionLine& line : variable.lines)
       known += std::pow(line.frequency * line.amplitude, 2) / (variable.angle ? 1 : 2);
     if (!(square <= kFaster * kFaster * known)) return true;  // also what is no number
     if (has_folded_line(variable, found.interval,
-                        rest_of_rate(motion, i, rates[i], variable, found.interval)))
+                        rest_of_rate(motion, i, rates[i], variable, found.interval),
+                        kOfError * error_of(motion) * size))
       return true;
   }
   return false;
+}
+
+/// The frequencies are those of the motion that the method made. Another frequency shows as a phase
+/// that grows along the run, and so as a part of the error at its end: the whole of it may be that.
+void add_error_of_run(AnalysedMotion& result, double duration) {
+  MotionFrequencies& found = result.found;
+  if (!result.run.trust.known) {
+    found.warnings.emplace_back(
+        "how far the states are off is not known: the errors of frequencies are those of the "
+        "spectrum alone, without what the method adds");
+    return;
+  }
+  const double phase = kOfError * error_of(result.run);
+  for (double& error : found.base_errors) error += phase / duration;
+  for (std::size_t i = 0; i < found.variables.size(); ++i) {
+    const double size = size_of(result.run, i, found.variables[i]);
+    for (MotionLine& line : found.variables[i].lines)
+      line.error += phase / duration * std::max(1., size / std::abs(line.amplitude));
+  }
 }
 
 }  // namespace
@@ -182,6 +218,7 @@ AnalysedMotion analysed_motion(const Model& model, const Scene& scene, const Pre
         "frequency that {} states can tell, and seen at another; take a shorter duration",
         std::numbers::pi / result.found.interval, result.found.samples));
   }
+  add_error_of_run(result, duration);
   const ErrorEstimate& trust = result.run.trust;
   if (trust.known && trust.error_estimate > kBadState)
     result.found.warnings.insert(

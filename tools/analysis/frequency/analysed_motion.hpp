@@ -16,7 +16,8 @@ struct AnalysedMotion {
 };
 
 /// Integrates a scene, more densely until its spectrum ends before the highest frequency that the
-/// samples can tell, and finds the strongest lines of each variable. An end state that is not known
+/// samples can tell, and finds the strongest lines of each variable. Their errors are those of the
+/// spectrum and of the method together. An end state that is not known
 /// well enough for frequencies is a warning of `found`.
 /// \param run  must outlive the result
 /// \param how  its `sample_every` is not used

@@ -13,8 +13,8 @@ namespace casimir {
 struct MotionLine {
   double frequency = 0;  ///< in radians per unit of time
   double amplitude = 0, phase = 0;
-  double error = 0;              ///< of the frequency: see SpectralLine::error
-  bool settled = false;          ///< the same line is in both halves of the motion
+  double error = 0;      ///< of the frequency: see SpectralLine::error, and `analysed_motion`
+  bool settled = false;  ///< the same line is in both halves of the motion
   std::vector<int> combination;  ///< of the base frequencies; empty where it is none
 };
 

@@ -293,10 +293,10 @@ class Judge {
     for (const std::size_t i : smaller_states(result_.trajectory, run_.initial))
       names += (names.empty() ? "" : ", ") + run_.specialisation.states[i];
     if (names.empty()) return;
-    result_.doubts.push_back(
-        fmt::format("the estimate says nothing of {}: all the time below a billionth of the "
-                    "largest state; other units would show it",
-                    names));
+    result_.unestimated = fmt::format(
+        "the estimate says nothing of {}: all the time below a billionth of the "
+        "largest state; other units would show it",
+        names);
   }
 
   /// Whether the estimate of the error leaves room for digits that a small divisor took.

@@ -30,6 +30,8 @@ struct AssessedRun {
   std::vector<std::string> projected;  ///< onto the levels of these invariants
   /// Sentences on how the run was made and on its invariants, where these leave a doubt.
   std::vector<std::string> doubts;
+  /// States that the estimate of the error says nothing of: a sentence.
+  std::optional<std::string> unestimated;
   /// Where the equations come near a division by zero: a sentence.
   std::optional<std::string> near_singular;
 };

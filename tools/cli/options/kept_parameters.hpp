@@ -22,6 +22,8 @@ class KeptParameters {
   /// The same for the case of a map.
   MapModel map_model_of(const MapCaseFile& file, const ParameterValues& given) const;
 
+  bool given() const { return !text_.empty(); }
+
   /// Sets `fold_parameters` and `keep_parameters`.
   template <class Options>
   Options in(Options options = {}) const {

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include "tools/analysis/proof/exact_text.hpp"
 #include "tools/text/runs/run_report.hpp"
@@ -17,6 +21,9 @@ std::string six_digits(const ErrorEstimate& trust) {
   if (!trust.six_digits_until) return "";
   return fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until);
 }
+
+std::vector<std::string> warnings_of_end(const ErrorEstimate& trust, bool constant_step);
+std::optional<std::string> warning_of_samples(const ErrorEstimate& trust);
 
 }  // namespace
 
@@ -39,6 +46,14 @@ nlohmann::ordered_json to_json(const ErrorEstimate& trust) {
 }
 
 std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_step) {
+  std::vector<std::string> warnings = warnings_of_end(trust, constant_step);
+  if (auto of_samples = warning_of_samples(trust)) warnings.push_back(std::move(*of_samples));
+  return warnings;
+}
+
+namespace {
+
+std::vector<std::string> warnings_of_end(const ErrorEstimate& trust, bool constant_step) {
   std::vector<std::string> warnings;
   if (trust.unconfirmed)
     warnings.push_back(fmt::format(
@@ -72,25 +87,35 @@ std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_s
                     : constant_step ? ": take a smaller --step"
                                     : ": tighten --tolerance"));
   }
-  constexpr double kMuchMore = 10, kRounding = 1e-14;
-  if (trust.samples_error && !trust.unconfirmed &&
-      *trust.samples_error > kMuchMore * std::max(trust.error_estimate, kRounding))
-    warnings.push_back(
-        fmt::format("the samples may be off by {:.0e} of the sizes of the states, which is more "
-                    "than the end is",
-                    *trust.samples_error));
   return warnings;
 }
 
+std::optional<std::string> warning_of_samples(const ErrorEstimate& trust) {
+  constexpr double kMuchMore = 10, kRounding = 1e-14;
+  if (!trust.samples_error || trust.unconfirmed ||
+      !(*trust.samples_error > kMuchMore * std::max(trust.error_estimate, kRounding)))
+    return std::nullopt;
+  return fmt::format(
+      "the samples may be off by {:.0e} of the sizes of the states, which is more than the end is",
+      *trust.samples_error);
+}
+
+}  // namespace
+
 RunWords words_of(const AssessedRun& judged, bool interrupted) {
   RunWords words{.warnings = judged.doubts, .advice = {}, .interrupted = interrupted};
-  for (std::string& warning : warnings_of(judged.trust, judged.settings.fixed_step > 0))
-    words.warnings.push_back(std::move(warning));
   const Trajectory& trajectory = judged.trajectory;
-  if (trajectory.status == Status::ok) {
-    if (judged.near_singular) words.warnings.push_back(*judged.near_singular);
-    return words;
-  }
+  std::vector<std::string> of_end;
+  if (judged.unestimated) of_end.push_back(*judged.unestimated);
+  for (std::string& warning : warnings_of_end(judged.trust, judged.settings.fixed_step > 0))
+    of_end.push_back(std::move(warning));
+  if (trajectory.status == Status::ok && judged.near_singular)
+    of_end.push_back(*judged.near_singular);
+  words.end_in_doubt = !of_end.empty();
+  std::ranges::move(of_end, std::back_inserter(words.warnings));
+  if (auto of_samples = warning_of_samples(judged.trust))
+    words.warnings.push_back(std::move(*of_samples));
+  if (trajectory.status == Status::ok) return words;
   words.advice = trajectory.status == Status::at_jump ? advice(trajectory.status)
                  : judged.near_singular               ? *judged.near_singular
                  : trajectory.stiff ? fmt::format("--method {}, or auto", kStiffMethod)

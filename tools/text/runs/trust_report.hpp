@@ -26,6 +26,9 @@ struct RunWords {
   std::vector<std::string> warnings;
   std::string advice;        ///< where the run stopped early
   bool interrupted = false;  ///< by the user
+  /// Whether a warning is about the state at the end, and not about how the run was made or about a
+  /// function that is no integral.
+  bool end_in_doubt = false;
 };
 
 /// \param interrupted  whether the user ended it.
