@@ -53,10 +53,10 @@ bool has_few_sums(const SeriesRecurrences& r) { return r.sums.size() <= kFewSums
 std::string packed_operands(const SeriesRecurrences& r) {
   const Operands operands = operands_of(r);
   return packed("left_[k]", operands.left, "        ") +
-         packed("right_[k]", operands.right, "        ");
+         packed("right_of(k)", operands.right, "        ");
 }
 
-/// The sums of order k + 1, of which `form_sums` has all but what the coefficients of order k add:
+/// The sums of order k + 1, of which `form_inner` has all but what the coefficients of order k add:
 /// l[1] r[k] + l[k] r[1], of order 2 the first alone.
 std::string sums_of_next_order(const SeriesRecurrences& r) {
   const Operands operands = operands_of(r);
@@ -87,14 +87,13 @@ std::string expand_function(const SeriesRecurrences& r) {
     text += "      const double* const sum_ = formed_;\n";
   } else if (!r.sums.empty()) {
     text += "      double sum_[" + std::to_string(r.sums.size()) + "] = {};\n" +
-            "      for (double& first : first_right_) first = 0;\n";
+            "      for (double& first : first_right_) first = 0;\n      clear_operands();\n";
   }
   text +=
       "      for (int k = 1; k < order; ++k) {\n"
       "        [[maybe_unused]] const double by_k = casimir_kernel::taylor::reciprocal.of[k];\n";
   if (r.uses_time) text += "        const double " + r.inputs.back() + "_k = k == 1 ? unit : 0;\n";
-  if (!r.sums.empty())
-    text += few ? "        form_sums<2>(k + 1);\n" : "        form_sums<1>(k);\n";
+  if (!r.sums.empty()) text += few ? "        form_inner(k + 1);\n" : "        form_sums(k);\n";
   text += r.next + packed_operands(r);
   if (few && !r.sums.empty()) text += sums_of_next_order(r);
   text += "        const casimir_kernel::taylor::Part<double> step(unit, k + 1);\n";

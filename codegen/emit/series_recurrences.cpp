@@ -22,7 +22,8 @@ namespace {
 std::vector<std::string> names_of_kernels() {
   std::istringstream names(
       "V S c rate order p most states blocks groups smooth width sums_width few sums the_states k "
-      "by_k step unit state at begin expand form_sums formed_ lane pack store fill row enter inner "
+      "by_k step unit state at begin expand form_sums form_inner clear_operands right_of kAtOnce "
+      "formed_ lane pack store fill row enter inner "
       "room begun_ series_ sum_ each left_ right_ first_left_ first_right_");
   return {std::istream_iterator<std::string>(names), {}};
 }

@@ -36,7 +36,8 @@ struct Convolved {
   const double* p;
 
  protected:
-  S left_[most][groups], right_[most][groups];
+  static constexpr int kAtOnce = 4;
+  S left_[most + kAtOnce][groups], right_[most + kAtOnce][groups];
   double formed_[sums_width * groups], first_left_[sums_width * groups],
       first_right_[sums_width * groups];
 
@@ -55,22 +56,52 @@ struct Convolved {
     ((*to++ = numbers), ...);
   }
 
-  /// The terms j = first .. k - first of order k of every sum.
-  template <int first>
+  /// All terms of order k of every sum.
   CASIMIR_INLINE void form_sums(int k) {
     CASIMIR_UNROLL
     for (int g = 0; g < groups; ++g) {
       S even = S{}, odd = S{};
-      int j = first;
-      for (; j + first < k; j += 2) {
-        even += left_[j][g] * right_[k - j][g];
-        odd += left_[j + 1][g] * right_[k - j - 1][g];
+      int j = 1;
+      for (; j + 1 < k; j += 2) {
+        even += left_[j][g] * right_of(k - j)[g];
+        odd += left_[j + 1][g] * right_of(k - j - 1)[g];
       }
-      if (j + first <= k) even += left_[j][g] * right_[k - j][g];
+      if (j < k) even += left_[j][g] * right_of(k - j)[g];
       even += odd;
       __builtin_memcpy(formed_ + sums_width * g, &even, sizeof even);
     }
   }
+
+  /// No coefficients yet, for `form_inner`.
+  CASIMIR_INLINE void clear_operands() {
+    for (auto& row : left_)
+      for (int g = 0; g < groups; ++g) row[g] = S{};
+    for (int k = 0; k < kAtOnce; ++k)
+      for (int g = 0; g < groups; ++g) right_[k][g] = S{};
+  }
+
+  /// The terms j = 2 .. k-2 of order k of every sum, four at once: a loop that ends elsewhere at
+  /// every order is not foreseen by the processor, which then cannot run ahead. Behind the last
+  /// term stand operands that are zero yet.
+  CASIMIR_INLINE void form_inner(int k) {
+    S even[groups] = {}, odd[groups] = {};
+    for (int j = 2; j + 1 < k; j += kAtOnce) {
+      CASIMIR_UNROLL
+      for (int g = 0; g < groups; ++g) {
+        even[g] += left_[j][g] * right_of(k - j)[g];
+        odd[g] += left_[j + 1][g] * right_of(k - j - 1)[g];
+        even[g] += left_[j + 2][g] * right_of(k - j - 2)[g];
+        odd[g] += left_[j + 3][g] * right_of(k - j - 3)[g];
+      }
+    }
+    CASIMIR_UNROLL
+    for (int g = 0; g < groups; ++g) {
+      even[g] += odd[g];
+      __builtin_memcpy(formed_ + sums_width * g, &even[g], sizeof even[g]);
+    }
+  }
+
+  CASIMIR_INLINE S* right_of(int k) { return right_[k + kAtOnce - 1]; }
 
  private:
   template <int b, class Register, int count>
