@@ -372,6 +372,7 @@ int integrate_case(const IntegrateArguments& options) {
   const std::vector<std::string> of_variables = answer.judge(judged);
   RunWords words = words_of(judged, interrupted);
   words.warnings.insert(words.warnings.begin(), of_variables.begin(), of_variables.end());
+  words.end_in_doubt = words.end_in_doubt || !of_variables.empty();
   if (!options.output.empty())
     write_samples(options.output, run.specialisation, answer, judged.trajectory);
   if (options.common.json) {

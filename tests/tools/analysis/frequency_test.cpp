@@ -158,6 +158,23 @@ TEST(AnalysedMotion, ErrorsHoldWhatTheMethodAdds) {
   EXPECT_LT(of_oscillator("sqrt(2)", "1000", 1, "auto").base_errors[0], 1e-13);
 }
 
+TEST(AnalysedMotion, WhatIsNotKnownOfTinyVariablesIsSaid) {
+  const auto warnings = [](const std::string& size) {
+    const Model model = model_of(
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\", \"u\", \"v\"]\n[equations]\n"
+        "x = \"y\"\ny = \"-x\"\nu = \"v\"\nv = \"-2*u\"\n[[scene]]\nname = \"default\"\n"
+        "initial = { x = \"1\", y = \"0\", u = \"" +
+        size + "\", v = \"0\" }\nduration = \"1000\"\n");
+    const Scene& scene = model.scene("default");
+    const PreparedScene run = prepare(model, scene);
+    return analysed_motion(model, scene, run, {.method = "dop853"}, 1).found.warnings;
+  };
+  EXPECT_TRUE(warnings("1/10").empty());
+  const std::vector<std::string> said = warnings("10^(-10)");
+  ASSERT_FALSE(said.empty());
+  EXPECT_NE(said.back().find("tiny"), std::string::npos) << said.back();
+}
+
 /// The second line is of the size of the method's error, and no sign of faster motion.
 TEST(AnalysedMotion, ALineThatTheMethodMakesHidesNoBase) {
   for (const char* method : {"dop853", "gauss8"}) {

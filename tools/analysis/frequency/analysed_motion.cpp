@@ -177,6 +177,10 @@ void add_error_of_run(AnalysedMotion& result, double duration) {
         "spectrum alone, without what the method adds");
     return;
   }
+  if (result.run.unestimated)
+    found.warnings.emplace_back(
+        "of variables that are tiny beside others the errors of frequencies are those of the "
+        "spectrum alone, without what the method adds");
   const double phase = kOfError * error_of(result.run);
   for (double& error : found.base_errors) error += phase / duration;
   for (std::size_t i = 0; i < found.variables.size(); ++i) {

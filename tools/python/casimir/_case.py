@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, Union
 
 from . import _core
 from ._errors import NoAnswer, RequestError
-from ._options import options_first
 from ._exact import Expression, is_float, pairs_of, reals, text_of, texts_of, whole
 from ._lazy import Lazy
+from ._options import options_first
 from ._progress import Progress, told
 from ._system import System
 from ._text import case_text
@@ -297,8 +297,8 @@ class Case:
                 facts["complete"],
                 facts["reason"],
             )
-        facts = self._core.search(_degree(degree), casimirs, texts_of(on), texts_of(functions), pairs_of(weights), time_limit,
-                                  memory)
+        facts = self._core.search(_degree(degree), casimirs, texts_of(on), texts_of(functions), pairs_of(weights),
+                                  time_limit, memory)
         return _results.search_of({**facts, "not_on": self._core.constraints_left_out(texts_of(on))})
 
     def _findings(self, facts: dict[str, Any], what: str) -> Findings:
@@ -319,7 +319,8 @@ class Case:
             return self._findings(
                 _core.darboux_conditions(self._core, _degree(degree), texts_of(free), time_limit, memory),
                 "values of parameters")
-        return [_results.DarbouxPolynomial(**one) for one in self._core.darboux(_degree(degree), time_limit, memory)["found"]]
+        found = self._core.darboux(_degree(degree), time_limit, memory)["found"]
+        return [_results.DarbouxPolynomial(**one) for one in found]
 
     def rational(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Integrals that are quotients of polynomials, with factors up to a degree.
@@ -358,7 +359,8 @@ class Case:
         >>> load("euler").orbital_symmetries(1).verdict
         'proved'
         """
-        return self._findings(_core.orbital_symmetries(self._core, _degree(degree), time_limit, memory), "orbital symmetries")
+        return self._findings(_core.orbital_symmetries(self._core, _degree(degree), time_limit, memory),
+                              "orbital symmetries")
 
     def hamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Poisson brackets of the equations of motion alone, up to a degree, with their Hamiltonians.
@@ -384,8 +386,8 @@ class Case:
         >>> load("henon-heiles").separation(1)[0]["separated"]
         'proved'
         """
-        return _results.Separations(_core.separation(self._core, _degree(degree), texts_of(on), texts_of(roots), time_limit,
-                                                     memory), "systems of variables that separate")
+        found = _core.separation(self._core, _degree(degree), texts_of(on), texts_of(roots), time_limit, memory)
+        return _results.Separations(found, "systems of variables that separate")
 
     def symmetries(self, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Linear symmetries of bracket and Hamiltonian, with their integrals by Noether's theorem."""
@@ -451,7 +453,8 @@ class Case:
         >>> load("euler").kahan_degrees(8).growth
         'polynomial'
         """
-        return _results.Degrees(**_core.kahan_degrees(self._core, whole("iterates", iterates, 0, 1000), time_limit, memory))
+        iterates = whole("iterates", iterates, 0, 1000)
+        return _results.Degrees(**_core.kahan_degrees(self._core, iterates, time_limit, memory))
 
     # Numbers.
 
@@ -637,7 +640,8 @@ class Case:
         >>> [round(one, 9) for one in swing.frequencies(duration=1000).base]
         [1.0]
         """
-        return _measured.Frequencies(**_core.frequencies(self._core, scene, method, whole("lines", lines, 1, 40), duration, tolerance,
+        lines = whole("lines", lines, 1, 40)
+        return _measured.Frequencies(**_core.frequencies(self._core, scene, method, lines, duration, tolerance,
                                                          time_limit, told(progress)))
 
     def compare(self, *, methods: Sequence[str] = (), tolerances: Sequence[float] = (1e-3, 1e-6, 1e-9, 1e-12),

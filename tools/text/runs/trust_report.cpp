@@ -22,37 +22,6 @@ std::string six_digits(const ErrorEstimate& trust) {
   return fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until);
 }
 
-std::vector<std::string> warnings_of_end(const ErrorEstimate& trust, bool constant_step);
-std::optional<std::string> warning_of_samples(const ErrorEstimate& trust);
-
-}  // namespace
-
-nlohmann::ordered_json to_json(const ErrorEstimate& trust) {
-  nlohmann::ordered_json json = {{"conditioning", nullptr},
-                                 {"input_rounding", nullptr},
-                                 {"error_estimate", nullptr},
-                                 {"beyond_double", nullptr}};
-  if (!trust.known) return json;
-  json["conditioning"] = exact_text(trust.conditioning);
-  json["input_rounding"] = exact_text(trust.input_rounding);
-  json["beyond_double"] = trust.beyond_double;
-  if (trust.on_the_way > 2 * trust.conditioning)
-    json["conditioning_on_the_way"] = exact_text(trust.on_the_way);
-  if (!trust.unconfirmed) json["error_estimate"] = exact_text(trust.error_estimate);
-  if (trust.six_digits_until) json["six_digits_until"] = exact_text(*trust.six_digits_until);
-  if (trust.samples_error) json["samples_error"] = exact_text(*trust.samples_error);
-  if (trust.followed) json["extrapolated_from"] = exact_text(*trust.followed);
-  return json;
-}
-
-std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_step) {
-  std::vector<std::string> warnings = warnings_of_end(trust, constant_step);
-  if (auto of_samples = warning_of_samples(trust)) warnings.push_back(std::move(*of_samples));
-  return warnings;
-}
-
-namespace {
-
 std::vector<std::string> warnings_of_end(const ErrorEstimate& trust, bool constant_step) {
   std::vector<std::string> warnings;
   if (trust.unconfirmed)
@@ -101,6 +70,30 @@ std::optional<std::string> warning_of_samples(const ErrorEstimate& trust) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json to_json(const ErrorEstimate& trust) {
+  nlohmann::ordered_json json = {{"conditioning", nullptr},
+                                 {"input_rounding", nullptr},
+                                 {"error_estimate", nullptr},
+                                 {"beyond_double", nullptr}};
+  if (!trust.known) return json;
+  json["conditioning"] = exact_text(trust.conditioning);
+  json["input_rounding"] = exact_text(trust.input_rounding);
+  json["beyond_double"] = trust.beyond_double;
+  if (trust.on_the_way > 2 * trust.conditioning)
+    json["conditioning_on_the_way"] = exact_text(trust.on_the_way);
+  if (!trust.unconfirmed) json["error_estimate"] = exact_text(trust.error_estimate);
+  if (trust.six_digits_until) json["six_digits_until"] = exact_text(*trust.six_digits_until);
+  if (trust.samples_error) json["samples_error"] = exact_text(*trust.samples_error);
+  if (trust.followed) json["extrapolated_from"] = exact_text(*trust.followed);
+  return json;
+}
+
+std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_step) {
+  std::vector<std::string> warnings = warnings_of_end(trust, constant_step);
+  if (auto of_samples = warning_of_samples(trust)) warnings.push_back(std::move(*of_samples));
+  return warnings;
+}
 
 RunWords words_of(const AssessedRun& judged, bool interrupted) {
   RunWords words{.warnings = judged.doubts, .advice = {}, .interrupted = interrupted};
