@@ -253,14 +253,41 @@ std::vector<ex> RealPoints::draw() {
 }
 
 std::vector<ex> RealPoints::draw_wide() {
-  std::vector<ex> point;
-  for (std::size_t i = 0; i < ring_.symbols().size(); ++i) {
-    GiNaC::numeric value(std::uniform_int_distribution<int>(-999, 999)(random_), 100);
-    for (int k = std::uniform_int_distribution<int>(-5, 5)(random_); k != 0; k += k < 0 ? 1 : -1)
-      value = k < 0 ? value / 10 : value * 10;
-    point.emplace_back(value);
-  }
+  const auto draw_size = [&] {
+    const long k = std::uniform_int_distribution<int>(-5, 5)(random_);
+    return GiNaC::pow(ex(10), k);
+  };
+  std::vector<ex> point = draw();
+  const bool each = draws_ % 2 == 0;
+  const ex size = draw_size();
+  for (ex& x : point) x *= each ? draw_size() : size;
   return point;
+}
+
+bool RealPoints::has_inner_point(const std::vector<ex>& expressions) {
+  const std::vector<Assumption>& assumptions = model_.assumptions;
+  const auto is_inside = [&](std::vector<ex> coordinates) {
+    try {
+      RealPoint point = at(std::move(coordinates));
+      BallEvaluator& values = point.evaluator();
+      for (const Assumption& a : assumptions) {
+        const std::optional<int> sign = values.sign(a.difference);
+        if (!sign || *sign == 0 || !holds(a.comparison, *sign)) return false;
+      }
+      for (const ex& e : expressions) values.require(e);
+      return values.smooth();
+    } catch (const NotCertified&) {
+      return false;
+    }
+  };
+  const std::vector<std::vector<ex>> states = scenes();
+  if (std::any_of(states.begin(), states.end(), is_inside)) return true;
+  constexpr int kTries = 400, kWide = 1000;
+  for (int k = 0; k < kTries; ++k)
+    if (is_inside(draw())) return true;
+  for (int k = 0; k < kWide; ++k)
+    if (is_inside(draw_wide())) return true;
+  return false;
 }
 
 std::vector<ex> RealPoints::draw_simple(bool parts_of_pi) {

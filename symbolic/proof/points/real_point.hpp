@@ -100,13 +100,17 @@ class RealPoints {
   bool admits(RealPoint& point, const std::vector<GiNaC::ex>& expressions) const;
   bool admits(BallEvaluator& at, const std::vector<GiNaC::ex>& expressions) const;
 
+  /// Whether a point was found around which the expressions have values, and the assumptions hold,
+  /// none of them with equality. The scenes are tried first.
+  bool has_inner_point(const std::vector<GiNaC::ex>& expressions);
+
   /// The initial states of the case's scenes, with their parameters.
   std::vector<std::vector<GiNaC::ex>> scenes();
 
   /// Coordinates for the ring's symbols, without a look at the assumptions.
   std::vector<GiNaC::ex> draw();
-  /// The same, from a millionth to a million: for functions that have values far from 0 alone, or
-  /// close to it.
+  /// The same, from a millionth to a million, by turns all of one size and each of its own: for
+  /// functions that have values far from 0 alone, or close to it.
   std::vector<GiNaC::ex> draw_wide();
   /// The same; many are 0, 1 or -1, or parts of Pi if these are asked for.
   std::vector<GiNaC::ex> draw_simple(bool parts_of_pi = false);
