@@ -13,9 +13,9 @@
 #include "codegen/dag/vanishing.hpp"
 #include "codegen/optimise/optimise.hpp"
 #include "codegen/optimise/terms.hpp"
-#include "codegen/positive.hpp"
 #include "codegen/real_constants.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/functions/function_ring.hpp"
 #include "symbolic/model/given_functions.hpp"
 
 namespace casimir {
@@ -162,12 +162,22 @@ class Specialiser {
     });
   }
 
+  /// Whether it is positive wherever it has a value, by the assumptions of the case. False says
+  /// nothing.
+  bool is_positive(const GiNaC::ex& expression) const {
+    try {
+      FunctionRing ring(general_symbols(), model_.assumptions, {expression}, model_.limits);
+      return ring.is_assumed_positive(ring.convert(expression));
+    } catch (const ModelError&) {  // the ring has no such function
+      return false;
+    }
+  }
+
   /// q^n is computed as exp(n*log(q)) where n stays open, which has a value for positive q only:
   /// the scene itself, with n = 4, may be about any q.
   void note_powers_left_out(const GiNaC::ex& expression) {
     for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
-      if (!GiNaC::is_a<GiNaC::power>(*part) || !stays_open(part->op(1)) ||
-          codegen::is_shown_positive(part->op(0)))
+      if (!GiNaC::is_a<GiNaC::power>(*part) || !stays_open(part->op(1)) || is_positive(part->op(0)))
         continue;
       const auto text = [&](const GiNaC::ex& e) {
         return general_dag_.text(general_dag_.convert(e));
