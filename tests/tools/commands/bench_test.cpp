@@ -208,6 +208,11 @@ TEST(Bench, GrowthBeyondWhatDoublesTellIsNotSaidToBeSoMuchAtMost) {
   EXPECT_NE(text("60").find("beyond what runs in double precision"), std::string::npos)
       << text("60");
   EXPECT_NE(text("5").find("times along the run at most"), std::string::npos) << text("5");
+  EXPECT_TRUE(run_in(folder, {"bench", "lorenz.toml", "--method", "dop853", "--tolerances", "1e-9",
+                              "--budget", "0.1", "--json"})
+                  .json()
+                  .at("conditioning")
+                  .is_null());
 }
 
 TEST(Bench, ToleranceThatIsRefusedIsARow) {
