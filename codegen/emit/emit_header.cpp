@@ -37,7 +37,10 @@ class HeaderWriter {
       : context_(spec, options), sparse_jacobian_(options.sparse_jacobian), name_(options.name) {}
 
   std::string run() {
-    Names namespaces({"state_names", "invariant_names", "initial_state"});
+    std::vector<std::string> taken = codegen::global_functions();
+    for (const char* name : {"state_names", "invariant_names", "initial_state"})
+      taken.emplace_back(name);
+    Names namespaces(std::move(taken));
     const std::string scope = name_ ? *name_ : namespaces.unique(spec_.case_name);
     const std::string guard = codegen::guard_of(scope, name_.has_value(), "HPP");
     std::string text = codegen::head_comment(spec_, true) + codegen::ownership_comment() +
@@ -323,7 +326,7 @@ class HeaderWriter {
 }  // namespace
 
 std::string emit_header(const Specialisation& spec, const HeaderOptions& options) {
-  if (options.name) codegen::check_header_name(*options.name);
+  if (options.name) codegen::check_header_name(*options.name, options.language != Language::c);
   if (options.language == Language::c) return codegen::emit_c_header(spec, options);
   return HeaderWriter(spec, options).run();
 }

@@ -23,13 +23,18 @@ constexpr auto kMoreKeywords = std::to_array<std::string_view>({"typeof", "restr
 
 constexpr auto kReserved = std::to_array<std::string_view>(
     {// macros of common headers and compilers
-     "NULL", "I", "EOF", "NAN", "INFINITY", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL", "errno", "assert",
-     "complex", "imaginary", "M_E", "M_LOG2E", "M_LOG10E", "M_LN2", "M_LN10", "M_PI", "M_PI_2",
-     "M_PI_4", "M_1_PI", "M_2_PI", "M_2_SQRTPI", "M_SQRT2", "M_SQRT1_2", "FP_NAN", "FP_INFINITE",
-     "FP_ZERO", "FP_NORMAL", "FP_SUBNORMAL", "DOMAIN", "SING", "OVERFLOW", "UNDERFLOW", "PLOSS",
-     "TLOSS", "major", "minor", "makedev", "unix", "linux", "i386", "stdin", "stdout", "stderr",
-     "min", "max", "near", "far", "small", "signals", "slots", "emit", "foreach", "B0", "TRUE",
-     "FALSE", "SUNTRUE", "SUNFALSE", "RCONST", "SUN_RCONST",
+     "NULL", "I", "EOF", "NAN", "INFINITY", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL", "errno", "BUFSIZ",
+     "MAXFLOAT", "math_errhandling", "E2BIG", "EACCES", "EAGAIN", "EBADF", "EBUSY", "ECHILD",
+     "EDEADLK", "EDOM", "EEXIST", "EFAULT", "EFBIG", "EILSEQ", "EINTR", "EINVAL", "EIO", "EISDIR",
+     "EMFILE", "EMLINK", "ENFILE", "ENODEV", "ENOENT", "ENOEXEC", "ENOLCK", "ENOMEM", "ENOSPC",
+     "ENOSYS", "ENOTDIR", "ENOTTY", "ENXIO", "EPERM", "EPIPE", "EPROTO", "ERANGE", "EROFS",
+     "ESPIPE", "ESRCH", "ESTALE", "ETIME", "EXDEV", "SIGABRT", "SIGFPE", "SIGILL", "SIGINT",
+     "SIGSEGV", "SIGTERM", "assert", "complex", "imaginary", "M_E", "M_LOG2E", "M_LOG10E", "M_LN2",
+     "M_LN10", "M_PI", "M_PI_2", "M_PI_4", "M_1_PI", "M_2_PI", "M_2_SQRTPI", "M_SQRT2", "M_SQRT1_2",
+     "FP_NAN", "FP_INFINITE", "FP_ZERO", "FP_NORMAL", "FP_SUBNORMAL", "DOMAIN", "SING", "OVERFLOW",
+     "UNDERFLOW", "PLOSS", "TLOSS", "major", "minor", "makedev", "unix", "linux", "i386", "stdin",
+     "stdout", "stderr", "min", "max", "near", "far", "small", "signals", "slots", "emit",
+     "foreach", "B0", "TRUE", "FALSE", "SUNTRUE", "SUNFALSE", "RCONST", "SUN_RCONST",
      // names of this code and of what it calls
      "x", "dx", "dxdt", "t", "p", "n", "J", "y", "ydot", "fy", "dfdt", "state", "values", "real",
      "Real", "State", "Derivative", "Matrix", "Vector", "System", "system", "parameters", "rhs",
@@ -39,6 +44,52 @@ constexpr auto kReserved = std::to_array<std::string_view>(
      "ddelta_x", "variational", "taylor", "start", "coefficients", "degree", "Order", "time_series",
      "gradients", "dvalues", "entries", "jacobian_entries", "jacobian_nonzeros", "jacobian_rows",
      "jacobian_columns", "prepare", "prepared", "prepared_system"});
+
+/// Functions that common headers of C and POSIX declare in the global namespace, where no other may
+/// have their name: those whose names are words.
+constexpr auto kGlobalFunctions = std::to_array<std::string_view>(
+    {"abort",    "abs",       "accept",    "access",    "acct",     "alarm",       "atexit",
+     "atof",     "atoi",      "atol",      "atoll",     "basename", "bcmp",        "bcopy",
+     "bind",     "brk",       "bsearch",   "bzero",     "calloc",   "cbrt",        "ceil",
+     "chdir",    "chmod",     "chown",     "chroot",    "clearerr", "clock",       "clone",
+     "close",    "connect",   "conj",      "creat",     "crypt",    "ctime",       "daemon",
+     "daylight", "difftime",  "div",       "drand48",   "drem",     "dup",         "erf",
+     "erfc",     "exit",      "exp10",     "exp2",      "expm1",    "fclose",      "fdim",
+     "feof",     "ferror",    "fflush",    "ffs",       "fileno",   "finite",      "floor",
+     "fma",      "fmax",      "fmin",      "fmod",      "fopen",    "fork",        "free",
+     "frexp",    "fstat",     "fsync",     "getc",      "getenv",   "gets",        "hypot",
+     "ilogb",    "index",     "ioctl",     "isatty",    "kill",     "labs",        "ldexp",
+     "ldiv",     "lgamma",    "link",      "listen",    "llabs",    "lldiv",       "lockf",
+     "log10",    "log1p",     "log2",      "logb",      "lrint",    "lround",      "lseek",
+     "lstat",    "malloc",    "memchr",    "memcmp",    "memcpy",   "memmem",      "memset",
+     "mkdir",    "mkfifo",    "mblen",     "mknod",     "mktime",   "modf",        "mount",
+     "nan",      "nearbyint", "nextafter", "nice",      "open",     "pause",       "perror",
+     "pipe",     "poll",      "pow10",     "printf",    "putc",     "putenv",      "puts",
+     "qsort",    "raise",     "rand",      "random",    "read",     "readlink",    "realloc",
+     "recv",     "remainder", "remove",    "rename",    "rewind",   "rindex",      "rint",
+     "rmdir",    "round",     "sbrk",      "scalb",     "scalbn",   "scanf",       "select",
+     "send",     "setenv",    "shutdown",  "sigaction", "signal",   "significand", "sleep",
+     "socket",   "srand",     "srandom",   "stat",      "strcat",   "strchr",      "strcmp",
+     "strcpy",   "strdup",    "strlen",    "strtod",    "swab",     "symlink",     "sync",
+     "syscall",  "system",    "tgamma",    "time",      "times",    "timezone",    "tmpfile",
+     "tmpnam",   "tolower",   "toupper",   "trunc",     "truncate", "ttyname",     "tzset",
+     "uint",     "ulong",     "umask",     "uname",     "ungetc",   "unlink",      "usleep",
+     "vfork",    "wait",      "write"});
+
+/// Macros of common headers, of which there are more than a thousand, have capitals only and mostly
+/// begin with one of these: DBL_MAX, FP_ILOGB0.
+bool looks_like_macro(const std::string& name) {
+  constexpr auto kBeginnings = std::to_array<std::string_view>(
+      {"CHAR_",    "CLOCKS_PER_", "DBL_",     "EXIT_",   "FLT_",    "FP_",     "INT_",
+       "INT8_",    "INT16_",      "INT32_",   "INT64_",  "INTMAX_", "INTPTR_", "LDBL_",
+       "LLONG_",   "LONG_M",      "PTRDIFF_", "RAND_",   "SCHAR_",  "SHRT_",   "SIZE_",
+       "UCHAR_",   "UINT_",       "UINT8_",   "UINT16_", "UINT32_", "UINT64_", "UINTMAX_",
+       "UINTPTR_", "ULLONG_",     "ULONG_",   "USHRT_",  "WCHAR_M", "WINT_M"});
+  const bool loud = std::ranges::all_of(
+      name, [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; });
+  return loud && name.find('_') != std::string::npos &&
+         std::ranges::any_of(kBeginnings, [&](auto part) { return name.starts_with(part); });
+}
 
 bool is_plain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -64,6 +115,10 @@ bool is_numbered(const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> global_functions() {
+  return {kGlobalFunctions.begin(), kGlobalFunctions.end()};
+}
+
 Names::Names(std::vector<std::string> taken) : taken_(taken.begin(), taken.end()) {
   taken_.insert(kCppKeywords.begin(), kCppKeywords.end());
   taken_.insert(kMoreKeywords.begin(), kMoreKeywords.end());
@@ -73,7 +128,7 @@ Names::Names(std::vector<std::string> taken) : taken_(taken.begin(), taken.end()
 
 std::string Names::unique(const std::string& wanted) {
   const std::string base = identifier(wanted);
-  if (!is_numbered(base) && taken_.insert(base).second) return base;
+  if (!is_numbered(base) && !looks_like_macro(base) && taken_.insert(base).second) return base;
   const std::string stem = base.ends_with('_') ? base : base + "_";
   if (taken_.insert(stem).second) return stem;
   for (int i = 2;; ++i) {
@@ -81,7 +136,7 @@ std::string Names::unique(const std::string& wanted) {
   }
 }
 
-void check_header_name(const std::string& name) {
+void check_header_name(const std::string& name, bool of_namespace) {
   const auto refuse = [&](const std::string& why) {
     throw ModelError(fmt::format("'{}' cannot name generated code: {}", printable(name), why));
   };
@@ -97,6 +152,8 @@ void check_header_name(const std::string& name) {
   const auto named_so = [&](const FunctionRow& function) { return function.c_name == name; };
   if (std::ranges::count(kReserved, name) != 0 || std::ranges::any_of(function_table(), named_so))
     refuse("it is a macro of common headers, or a name that the code itself uses");
+  if (of_namespace && std::ranges::count(kGlobalFunctions, name) != 0)
+    refuse("common headers declare a function of that name");
 }
 
 std::string comment_text(const std::string& text) {

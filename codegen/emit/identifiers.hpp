@@ -6,6 +6,9 @@
 
 namespace casimir::codegen {
 
+/// Names of functions that common headers declare, which no namespace may have.
+std::vector<std::string> global_functions();
+
 /// Hands out C++ identifiers that clash with nothing: not with keywords, macros of the standard
 /// headers, names that generated code uses itself, nor with each other.
 class Names {
@@ -23,7 +26,8 @@ class Names {
 
 /// Throws ModelError unless the code of a header may have this name: an identifier that C++ does
 /// not reserve, no keyword, and nothing that Names keeps clear of.
-void check_header_name(const std::string& name);
+/// \param of_namespace  and no function that common headers declare; else names begin with it
+void check_header_name(const std::string& name, bool of_namespace = true);
 
 /// Text of a stranger made fit for a `//` comment: printable ASCII on one line, without anything
 /// that ends or continues a comment.

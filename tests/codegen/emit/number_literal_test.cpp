@@ -132,6 +132,25 @@ TEST(Literal, ConstantsAreHeldToTheLimitsOfTheirCase) {
   }
 }
 
+TEST(Names, AreNoMacrosOfCommonHeaders) {
+  Names names;
+  for (const char* macro : {"DBL_MAX", "FLT_EPSILON", "INT32_MAX", "RAND_MAX", "FP_ILOGB0", "EDOM",
+                            "MAXFLOAT", "math_errhandling", "CLOCKS_PER_SEC"})
+    EXPECT_EQ(names.unique(macro), std::string(macro) + "_");
+  for (const char* own :
+       {"SIGMA", "EPS", "OMEGA_1", "KEPLER_2D", "INERTIA", "E1", "INTEGRAL_A", "TIME_0", "LONG_1"})
+    EXPECT_EQ(names.unique(own), own);
+}
+
+TEST(Names, OfHeadersAreNoFunctionsOfOthers) {
+  for (const char* name : {"random", "time", "select", "round", "sin"})
+    EXPECT_THROW(check_header_name(name), ModelError) << name;
+  check_header_name("random_top");
+  check_header_name("random", false);  // of C, where it is random_rhs
+  for (const std::string& name : global_functions())
+    EXPECT_EQ(Names(global_functions()).unique(name), name + "_");
+}
+
 TEST(Names, ClashesAreResolvedInOrder) {
   Names names;
   EXPECT_EQ(names.unique("M1"), "M1");
