@@ -162,7 +162,10 @@ class Provers {
   void decide(const Claim& claim, Proof& proof) {
     try {
       const WorkMeter meter(model_.limits);
-      if (!shared_) own_.emplace(model_, claim.expressions, claim.subject);
+      if (!shared_) {
+        own_.emplace(model_, claim.expressions, claim.subject);
+        own_->share(on_constraints_);
+      }
       Prover& prover = shared_ ? *shared_ : *own_;
       prover.begin_claim(claim.expressions, claim.subject);
       prover.take_as_inhabited(inhabited_);
@@ -179,6 +182,7 @@ class Provers {
   const Model& model_;
   bool inhabited_;
   std::optional<Prover> shared_, own_;
+  std::shared_ptr<PointsOfConstraints> on_constraints_ = std::make_shared<PointsOfConstraints>();
 };
 
 /// Decides a claim; where it has no meaning, by `meaningless`. A note is about other claims, too.

@@ -179,7 +179,7 @@ BallEvaluator::Value BallEvaluator::whole_power(const Value& base,
 
 /// The principal root; of real numbers a real one, of those that are not negative.
 BallEvaluator::Value BallEvaluator::root(const Value& base, unsigned long order) {
-  if (base.exact && cln::zerop(*base.exact)) smooth_ = false;
+  if (base.exact ? cln::zerop(*base.exact) : base.ball().contains_zero()) smooth_ = false;
   if (base.exact && !cln::minusp(*base.exact)) {
     cln::cl_RA result;
     if (order <= 64 && cln::rootp(*base.exact, static_cast<unsigned>(order), &result))

@@ -103,7 +103,7 @@ std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p, bool c
     const bool function = generator.kind == Kind::function;
     if (generator.kind != Kind::inverse && !generator.base.is_zero())
       divided_by(table_.fraction(generator.base).second,
-                 cuts && function && generator.order == kArcTangent);
+                 function && generator.order == kArcTangent);  // atan(1/x)
     for (const Polynomial& argument : generator.arguments)
       divided_by(table_.fraction(argument).second, cuts && function);
     if (!cuts || !function || generator.order != kArcTangentOfTwo) continue;

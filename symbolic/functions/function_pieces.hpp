@@ -23,7 +23,8 @@ class FunctionPieces {
   /// what it divides by inside of roots, absolute values and inverse functions, or beside them with
   /// the same factor, as |s|/s does, and what vanishes on the cuts of atan2. Of a quotient of
   /// analytic functions there are none: what is constant along a motion has no pole there.
-  /// \param cuts  with those of atan2 and of arguments of atan that become infinite
+  /// \param cuts  with those of atan2, and of arguments of other functions than atan that become
+  ///              infinite
   std::vector<Polynomial> jump_factors(const Polynomial& p, bool cuts = true) const;
 
   /// Of quotients N/D within other functions: log(N/D) has become log(N) - log(D), of which both

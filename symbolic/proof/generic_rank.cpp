@@ -11,6 +11,31 @@
 #include "symbolic/proof/thin_domain.hpp"
 
 namespace casimir {
+
+std::pair<std::vector<std::size_t>, std::vector<std::size_t>> regular_minor(
+    RealPoint& point, const PolynomialRows& matrix, std::size_t size) {
+  std::vector<std::size_t> rows;
+  PolynomialRows chosen;
+  for (std::size_t i = 0; i < matrix.size() && rows.size() < size; ++i) {
+    chosen.push_back(matrix[i]);
+    if (point.rank(chosen) == chosen.size())
+      rows.push_back(i);
+    else
+      chosen.pop_back();
+  }
+  std::vector<std::size_t> columns;
+  PolynomialRows transposed;
+  for (std::size_t j = 0; j < matrix[0].size() && columns.size() < size; ++j) {
+    transposed.emplace_back();
+    for (const std::size_t i : rows) transposed.back().push_back(matrix[i][j]);
+    if (point.rank(transposed) == transposed.size())
+      columns.push_back(j);
+    else
+      transposed.pop_back();
+  }
+  return {rows, columns};
+}
+
 namespace {
 
 using Rows = std::vector<std::vector<cln::cl_RA>>;
@@ -66,31 +91,6 @@ bool kernel_has(Prover& prover, const PolynomialRows& rows,
     if (!belongs) independent.pop_back();
   }
   return independent.size() == count;
-}
-
-/// Rows and columns of a regular minor of full rank.
-std::pair<Indices, Indices> regular_minor(RealPoint& point, const PolynomialRows& matrix,
-                                          std::size_t size) {
-  Indices rows;
-  PolynomialRows chosen;
-  for (std::size_t i = 0; i < matrix.size() && rows.size() < size; ++i) {
-    chosen.push_back(matrix[i]);
-    if (point.rank(chosen) == chosen.size())
-      rows.push_back(i);
-    else
-      chosen.pop_back();
-  }
-  Indices columns;
-  PolynomialRows transposed;
-  for (std::size_t j = 0; j < matrix[0].size() && columns.size() < size; ++j) {
-    transposed.emplace_back();
-    for (const std::size_t i : rows) transposed.back().push_back(matrix[i][j]);
-    if (point.rank(transposed) == transposed.size())
-      columns.push_back(j);
-    else
-      transposed.pop_back();
-  }
-  return {rows, columns};
 }
 
 /// The minors of a matrix that border a regular one, by expansion row by row: the minors of the

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "symbolic/proof/prover.hpp"
@@ -48,6 +49,11 @@ std::optional<GenericRank> generic_rank(
 std::optional<GenericRank> rank_with_conditions(
     Prover& prover, const PolynomialRows& rows,
     const std::function<std::vector<KernelCandidate>()>& kernel = {});
+
+/// Rows and columns of a minor of this size that is certainly not zero at the point; fewer where
+/// the rank is smaller there.
+std::pair<std::vector<std::size_t>, std::vector<std::size_t>> regular_minor(
+    RealPoint& point, const PolynomialRows& matrix, std::size_t size);
 
 /// Points of a claim's domain, sorted by the pieces on which functions are analytic.
 class PiecePoints {

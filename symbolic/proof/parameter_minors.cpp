@@ -31,8 +31,7 @@ std::optional<MinorWord> minor_fraction(const cln::cl_RA& number) {
 }  // namespace
 
 std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>> m,
-                                            const PolynomialRing& ring) {
-  constexpr std::size_t kMostTerms = 40;
+                                            const PolynomialRing& ring, std::size_t most_terms) {
   Polynomial previous = ring.constant(1);
   for (std::size_t k = 0; k + 1 < m.size(); ++k) {
     std::size_t pivot = k;
@@ -43,7 +42,7 @@ std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>>
       for (std::size_t j = k + 1; j < m.size(); ++j) {
         const Polynomial next = m[i][j] * m[k][k] - m[i][k] * m[k][j];
         next.divide(previous, &m[i][j]);
-        if (m[i][j].terms() > kMostTerms) return std::nullopt;
+        if (m[i][j].terms() > most_terms) return std::nullopt;
       }
     }
     previous = m[k][k];

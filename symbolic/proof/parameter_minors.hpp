@@ -12,8 +12,10 @@
 namespace casimir {
 
 /// Fraction-free elimination (Bareiss), up to the sign; empty where it grows long.
+/// \param most_terms  of an entry on the way
 std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>> matrix,
-                                            const PolynomialRing& ring);
+                                            const PolynomialRing& ring,
+                                            std::size_t most_terms = 40);
 
 /// A polynomial modulo a prime, for many evaluations: what is not zero there is not zero.
 class MinorModulo {

@@ -100,6 +100,7 @@ void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {
   divisors_.reset();
   motion_divisors_.reset();
   claim_inhabited_.reset();
+  claim_on_constraints_.reset();
   holds_on_constraints_ = false;
   constraints_count_ = true;
   kept_from_zero_.clear();

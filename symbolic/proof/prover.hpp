@@ -3,6 +3,7 @@
 #include <functional>
 #include <list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -39,6 +40,15 @@ struct ExpressionPairLess {
 
 /// What of the system a claim speaks of: it holds, or not, also where the rest has no real value.
 enum class Subject { functions, bracket, motion };
+
+/// Real points of a model's constraints that were found.
+struct PointsOfConstraints {
+  /// Where many claims are about nothing, points are not looked for again and again.
+  static constexpr int kMostSearches = 6;
+  std::vector<BallEvaluator> points{};
+  bool empty = false;  ///< none was found, whatever has values there
+  int vain_searches = 0;
+};
 
 /// What the claims of one case are decided with: its functions as polynomials, its flow, and the
 /// search for witnesses. Deterministic: random points come from a fixed seed.
@@ -163,6 +173,15 @@ class Prover {
   /// is not looked at here. Until the next claim begins.
   void take_as_inhabited(bool taken) { taken_as_inhabited_ = taken; }
 
+  /// What provers of the claims of one model have in common.
+  void share(std::shared_ptr<PointsOfConstraints> points) { on_constraints_ = std::move(points); }
+
+  /// Whether a real point of the constraints was found at which the function, and those of the
+  /// claim, have values, and its own is not zero.
+  bool is_nonzero_somewhere_on_constraints(const GiNaC::ex& f);
+  /// Whether it is shown that the function has no zero on the constraints.
+  bool is_nowhere_zero_on_constraints(const Polynomial& p);
+
   /// A claim about nothing is not proved: for all points of the empty set everything is true.
   void check_inhabited(Proof& proof, const Level& level);
 
@@ -232,6 +251,13 @@ class Prover {
   const std::vector<Polynomial>& square_relations();
   std::optional<Witness> witness(const Polynomial& rest, const Residual& residual,
                                  const Level& level);
+  static std::vector<NamedExpression> functions_of(const Level& level);
+  const std::vector<GiNaC::ex>& claim_expressions() const;
+  const std::vector<GiNaC::ex>& all_expressions() const;
+  bool has_points_on(const Level& level, const std::vector<GiNaC::ex>& expressions);
+  bool has_inner_points();
+  bool has_points_on_constraints(const Level& own);
+  bool has_point_of_constraints(const std::vector<GiNaC::ex>& expressions, bool differentiable);
   void say_conditions(Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
   /// What has cancelled in the equations, the bracket and the constraints, of which the subject
@@ -262,7 +288,8 @@ class Prover {
   std::vector<KeptFromZero> kept_from_zero_;
   /// With the end of the generators that they are about.
   std::pair<std::size_t, std::vector<Polynomial>> square_relations_;
-  std::optional<bool> all_inhabited_, claim_inhabited_;
+  std::optional<bool> all_inhabited_, claim_inhabited_, all_on_constraints_, claim_on_constraints_;
+  std::shared_ptr<PointsOfConstraints> on_constraints_ = std::make_shared<PointsOfConstraints>();
   bool taken_as_inhabited_ = false, holds_on_constraints_ = false, constraints_count_ = true;
   /// A level, by its functions and by how much work it was worth.
   struct KnownLevel {

@@ -18,27 +18,100 @@ using GiNaC::ex;
 /// sqrt(-x^2) has.
 void Prover::check_inhabited(Proof& proof, const Level& own) {
   if (proof.verdict != Verdict::proved || taken_as_inhabited_) return;
-  const bool everywhere = ring_.is_polynomial() && model_.assumptions.empty();
-  static const std::vector<ex> kNothing;
-  const std::vector<ex>& domain = ring_.is_polynomial() ? kNothing : domain_;
-  if (own.empty()) {
-    if (everywhere) return;
-    if (!all_inhabited_)
-      all_inhabited_ = real_points_.any(ring_.is_polynomial() ? kNothing : all_, true).has_value();
-    if (*all_inhabited_) return;
-    if (!claim_inhabited_)
-      claim_inhabited_ = real_points_.any(domain, subject_ != Subject::functions).has_value();
-    if (*claim_inhabited_) return;
-  } else if (RealLevelPoints(ring_, real_points_, points_).exists(own, domain)) {
+  const bool whole = own.empty();
+  const bool constrained = constraints_count_ && !model_.constraints.empty();
+  if ((!whole || has_inner_points()) && (!constrained || has_points_on_constraints(own)) &&
+      (whole || constrained || has_points_on(own, claim_expressions())))
     return;
-  }
   proof.verdict = Verdict::undecided;
   proof.evidence.clear();
-  proof.reason = own.empty()
-                     ? "no real point was found inside the assumptions at which all functions of "
-                       "the claim have real values: it may be about nothing"
-                     : "no real point of the level was found inside the assumptions at which all "
-                       "functions of the claim have real values: it may be about nothing";
+  proof.reason = fmt::format(
+      "no real point{} was found inside the assumptions at which all functions of the claim have "
+      "real values: it may be about nothing",
+      constrained ? (whole ? " of the constraints" : " of the level and the constraints")
+                  : (whole ? "" : " of the level"));
+}
+
+/// What a point of the claim needs values of; a polynomial has one everywhere.
+const std::vector<ex>& Prover::claim_expressions() const {
+  static const std::vector<ex> kNothing;
+  return ring_.is_polynomial() ? kNothing : domain_;
+}
+
+/// The same of all claims of the case at once.
+const std::vector<ex>& Prover::all_expressions() const {
+  static const std::vector<ex> kNothing;
+  return ring_.is_polynomial() ? kNothing : all_;
+}
+
+bool Prover::has_points_on(const Level& level, const std::vector<ex>& expressions) {
+  return RealLevelPoints(ring_, real_points_, points_).find(level, expressions).has_value();
+}
+
+bool Prover::has_inner_points() {
+  if (ring_.is_polynomial() && model_.assumptions.empty()) return true;
+  if (!all_inhabited_) all_inhabited_ = real_points_.any(all_expressions(), true).has_value();
+  if (*all_inhabited_) return true;
+  if (!claim_inhabited_)
+    claim_inhabited_ =
+        real_points_.any(claim_expressions(), subject_ != Subject::functions).has_value();
+  return *claim_inhabited_;
+}
+
+/// Of what the constraints leave of a level: sqrt(|x|^2 - 2) is a Casimir function of so(3), and
+/// has no value on the unit sphere.
+bool Prover::has_points_on_constraints(const Level& own) {
+  const std::vector<ex>& known = level(model_.constraints).functions;
+  const bool whole = std::ranges::all_of(own.functions, [&](const ex& f) {
+    return std::ranges::any_of(known, [&](const ex& g) { return f.is_equal(g); });
+  });
+  if (!whole) {
+    if (on_constraints_->vain_searches >= PointsOfConstraints::kMostSearches) return false;
+    const bool found =
+        has_points_on(level(within_constraints(functions_of(own))), claim_expressions());
+    if (!found) ++on_constraints_->vain_searches;
+    return found;
+  }
+  if (!all_on_constraints_) all_on_constraints_ = has_point_of_constraints(all_expressions(), true);
+  if (*all_on_constraints_) return true;
+  if (ring_.is_polynomial()) return false;
+  if (!claim_on_constraints_)
+    claim_on_constraints_ =
+        has_point_of_constraints(claim_expressions(), subject_ != Subject::functions);
+  return *claim_on_constraints_;
+}
+
+/// Points that were found once are looked at first.
+bool Prover::has_point_of_constraints(const std::vector<ex>& expressions, bool differentiable) {
+  PointsOfConstraints& so_far = *on_constraints_;
+  const bool known = std::ranges::any_of(so_far.points, [&](BallEvaluator point) {
+    return real_points_.admits(point, expressions) && (!differentiable || point.smooth());
+  });
+  if (known) return true;
+  if (so_far.empty || so_far.vain_searches >= PointsOfConstraints::kMostSearches) return false;
+  const Level& set = level(model_.constraints);
+  RealLevelPoints points(ring_, real_points_, points_);
+  if (auto point = points.find(set, expressions, differentiable)) {
+    so_far.points.push_back(std::move(*point));
+    return true;
+  }
+  ++so_far.vain_searches;
+  if (so_far.points.empty()) {
+    auto any = points.find(set, {});
+    so_far.empty = !any;
+    if (any) so_far.points.push_back(std::move(*any));
+  }
+  return false;
+}
+
+bool Prover::is_nonzero_somewhere_on_constraints(const ex& f) {
+  std::vector<ex> expressions = claim_expressions();
+  expressions.push_back(GiNaC::pow(f, -1));
+  return has_point_of_constraints(expressions, false);
+}
+
+bool Prover::is_nowhere_zero_on_constraints(const Polynomial& p) {
+  return vanishes_nowhere_on(p, level(model_.constraints));
 }
 
 /// Whether the domain seems to have a zero of `f`, which has to be solved for a variable to be

@@ -16,14 +16,14 @@ using GiNaC::ex;
 constexpr std::size_t kMaxResidualText = 2000;
 constexpr GroebnerLimits kSmallBasis{200, 60, 2000};
 
-std::vector<NamedExpression> functions_of(const Level& level) {
+}  // namespace
+
+std::vector<NamedExpression> Prover::functions_of(const Level& level) {
   std::vector<NamedExpression> result;
   for (std::size_t i = 0; i < level.functions.size(); ++i)
     result.push_back({level.texts[i], level.functions[i], {}});
   return result;
 }
-
-}  // namespace
 
 const std::vector<Polynomial>& Prover::square_relations() {
   const std::size_t end = ring_.end_of_generators();

@@ -16,6 +16,8 @@
 #include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/proof/generic_rank.hpp"
+#include "symbolic/proof/independent_functions.hpp"
 #include "symbolic/proof/parameter_minors.hpp"
 #include "symbolic/proof/parameter_sets.hpp"
 
@@ -37,16 +39,31 @@ std::vector<bool> used_variables(const PolynomialRows& rows) {
   return used;
 }
 
+/// The indices, and these with one of them changed to another below `end`.
+std::vector<Indices> with_one_changed(const Indices& indices, std::size_t end) {
+  std::vector<Indices> result{indices};
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    for (std::size_t other = 0; other < end; ++other) {
+      if (std::find(indices.begin(), indices.end(), other) != indices.end()) continue;
+      result.push_back(indices);
+      result.back()[k] = other;
+    }
+  }
+  return result;
+}
+
 class SpecialParameters {
  public:
-  /// \param no_zeros  what vanishes nowhere where the case has values
+  /// \param no_zeros  what vanishes nowhere where the case has values; empty before denominators are
+  ///                  cleared
   SpecialParameters(Prover& prover, const PolynomialRows& rows, std::size_t rank,
-                    std::vector<Polynomial> no_zeros = {})
+                    std::optional<std::vector<Polynomial>> no_zeros = {})
       : prover_(prover),
         ring_(prover.ring()),
         rows_(rows),
         rank_(rank),
-        no_zeros_(std::move(no_zeros)) {
+        no_zeros_(no_zeros.value_or(std::vector<Polynomial>())),
+        nothing_divided_(no_zeros && no_zeros->empty()) {
     if (prover.model().parameters.empty()) return;
     const std::vector<bool> used = used_variables(rows);  // of none, where all are constant
     // What depends on a parameter is one of the entries exactly where it is this sum.
@@ -61,6 +78,8 @@ class SpecialParameters {
     // Functions of parameters, such as sin(a), have special values as well.
     for (std::size_t g = ring_.symbols().size(); g < ring_.end_of_generators(); ++g) {
       const Polynomial own = ring().variable(g);
+      // Of a sin(z)^2 + cos(z)^2 - 1 numbers for sine and cosine show no factor.
+      if (used[g] && no_zeros && depends_on_others(own)) with_relations_ = true;
       if (!used[g] || !depends_on_parameters(own)) continue;
       if (!depends_on_others(own)) constants_.push_back(g);
       if (ring_.origin(g).kind != FunctionRing::Origin::Kind::inverse) with_functions_ = true;
@@ -71,11 +90,12 @@ class SpecialParameters {
     if (places_.empty() || rank_ == 0) return {};
     find_minors();
     for (const Polynomial& f : common_factors()) look_at_factor(f, Zeros::all_minors);
-    const bool open = with_functions_ && !has_lasting_minor();
+    const bool doubtful = with_relations_ || (with_functions_ && !nothing_divided_);
+    const bool open = doubtful && !has_lasting_minor();
     if (minors_.empty() || !ring_.is_polynomial()) {
       for (const std::size_t p : places_) look_at_factor(ring().variable(p), Zeros::candidates);
     }
-    if (ring_.is_polynomial() && places_.size() > 1) look_at_pairs();
+    if (!with_functions_ && places_.size() > 1) look_at_pairs();
     if (open) say_that_others_are_open();
     return std::move(found_);
   }
@@ -109,19 +129,23 @@ class SpecialParameters {
   Polynomial at_numbers(const Polynomial& p, const std::vector<cln::cl_RA>& numbers) const;
   std::pair<Indices, Indices> regular_minor(const std::vector<cln::cl_RA>& point) const;
   void find_minors();
-  bool has_lasting_minor() const;
-  bool is_certainly_nonzero(const Polynomial& p) const;
-  bool is_never_identically_zero(const Polynomial& f) const;
+  bool has_lasting_minor();
+  bool lasts(const Polynomial& minor);
+  PolynomialRows minor_of(const Indices& rows, const Indices& columns) const;
+  bool is_never_identically_zero(const Polynomial& f);
+  bool was_looked_at(const Polynomial& f) const;
   void say_that_others_are_open();
   std::vector<Polynomial> common_factors() const;
   bool is_common_zero(const ParameterEquations& set) const;
-  bool lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put, bool* tried);
+  bool lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put, bool* tried,
+                   int draws = 200);
   bool is_solvable(const Polynomial& f, std::size_t place) const;
   bool put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates, bool larger) const;
   bool is_excluded_at_zero(const Polynomial& parameter) const;
   void look_at_factor(const Polynomial& f, Zeros zeros);
+  std::vector<Polynomial> neighbouring_minors() const;
   void look_at_pairs();
-  void look_at_set(const ParameterEquations& set);
+  void look_at_set(ParameterEquations set);
   void add(const std::string& condition) {
     if (std::find(found_.begin(), found_.end(), condition) == found_.end())
       found_.push_back(condition);
@@ -132,9 +156,11 @@ class SpecialParameters {
   const PolynomialRows& rows_;
   std::size_t rank_;
   std::vector<Polynomial> no_zeros_;
-  Indices places_;                       ///< of the parameters that the matrix depends on
-  Indices constants_;                    ///< of the functions of these alone, such as sin(a)
+  bool nothing_divided_;  ///< the rows are reduced, and differ by that alone from those before
+  Indices places_;        ///< of the parameters that the matrix depends on
+  Indices constants_;     ///< of the functions of these alone, such as sin(a)
   bool with_functions_ = false;          ///< of parameters that are not rational, such as sin(a*q)
+  bool with_relations_ = false;          ///< functions that may obey some
   std::pair<Indices, Indices> regular_;  ///< rows and columns of the minors
   std::vector<Polynomial> minors_;       ///< with numbers for everything else
   std::vector<Polynomial> factors_;      ///< whose zeros were looked at
@@ -196,7 +222,10 @@ void SpecialParameters::find_minors() {
     }
     std::optional<Polynomial> value = short_determinant(std::move(minor), ring());
     if (!value) return minors_.clear();
-    if (uses_inverse(*value)) value = ring_.lowest_terms(*value).first;
+    if (uses_inverse(*value))
+      value = ring_.lowest_terms(*value).first;
+    else if (!constants_.empty())
+      value = ring_.reduced(std::move(*value));  // as sin(a)^2 + cos(a)^2
     if (!value->is_zero()) minors_.push_back(std::move(*value));
     if (!minors_.empty() && minors_.back().is_constant()) return;
   }
@@ -221,8 +250,8 @@ bool SpecialParameters::is_common_zero(const ParameterEquations& set) const {
 /// Whether the rank is smaller at all points that `put` leads to; `tried` becomes whether there are
 /// any inside of all assumptions.
 bool SpecialParameters::lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put,
-                                    bool* tried) {
-  constexpr int kTrials = 3, kDraws = 200;
+                                    bool* tried, int draws) {
+  constexpr int kTrials = 3;
   static const std::vector<GiNaC::ex> kNothing;
   const auto& domain = ring_.is_polynomial() ? kNothing : prover_.domain();
   // Then every point is admitted, and need not be made where a rank modulo a prime decides.
@@ -232,7 +261,7 @@ bool SpecialParameters::lowers_rank(const std::function<bool(std::vector<GiNaC::
     return modular_rows_ && modular_rows_->rank_at(coordinates) >= rank_;
   };
   int admitted = 0;
-  for (int k = 0; k < kDraws && admitted < kTrials; ++k) {
+  for (int k = 0; k < draws && admitted < kTrials; ++k) {
     std::vector<GiNaC::ex> coordinates = prover_.real_points().draw();
     try {
       if (!put(coordinates)) continue;
@@ -322,56 +351,94 @@ void SpecialParameters::look_at_factor(const Polynomial& factor, Zeros zeros) {
 /// Whether some minor is not zero at almost all points, for all parameters at which none of the
 /// factors vanishes that were looked at: each of its factors is one of these, or vanishes nowhere,
 /// or has no parameters and so is the same function for all of them.
-bool SpecialParameters::has_lasting_minor() const {
-  if (regular_.first.size() < rank_) return false;
-  PolynomialRows minor;
-  for (const std::size_t i : regular_.first) {
-    minor.emplace_back();
-    for (const std::size_t j : regular_.second) minor.back().push_back(rows_[i][j]);
-  }
-  const std::optional<Polynomial> value = short_determinant(std::move(minor), ring());
-  if (!value) return false;
-  const Polynomial top = ring_.lowest_terms(*value).first;
-  if (top.is_zero() || !is_certainly_nonzero(*value)) return false;
-  const auto lasts = [&](const Polynomial& product) {
-    const auto factors = product.factors();
-    return std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
-      const Polynomial& f = factor.first;
-      return f.is_constant() || !depends_on_parameters(f) || ring_.is_nowhere_zero(f) ||
-             is_never_identically_zero(f) ||
-             std::find(factors_.begin(), factors_.end(), f.scaled(1 / f.content())) !=
-                 factors_.end();
-    });
-  };
-  return lasts(top) || lasts(*value);
-}
-
-/// At some point of the domain, by balls: the ring need not know all relations of its functions.
-bool SpecialParameters::is_certainly_nonzero(const Polynomial& p) const {
+bool SpecialParameters::has_lasting_minor() {
+  constexpr std::size_t kMost = 12, kMostTerms = 400;
+  std::size_t tried = 0;
   try {
     auto point = prover_.real_points().random(prover_.domain());
-    return point && !point->value(p).contains_zero();
+    if (!point) return false;
+    const auto [own_rows, own_columns] = casimir::regular_minor(*point, rows_, rank_);
+    if (own_rows.size() < rank_ || own_columns.size() < rank_) return false;
+    for (const Indices& rows : with_one_changed(own_rows, rows_.size())) {
+      for (const Indices& columns : with_one_changed(own_columns, rows_[0].size())) {
+        if (tried++ == kMost) return false;
+        const auto value = short_determinant(minor_of(rows, columns), ring(), kMostTerms);
+        if (value && lasts(*value) && !point->value(*value).contains_zero()) return true;
+      }
+    }
   } catch (const NotCertified&) {
-    return false;
   }
+  return false;
 }
 
-/// A polynomial in the coordinates of which one coefficient is not zero, whatever the parameters.
-bool SpecialParameters::is_never_identically_zero(const Polynomial& f) const {
+bool SpecialParameters::lasts(const Polynomial& minor) {
+  const auto has_no_zeros = [&](const Polynomial& product) {
+    const auto factors = product.factors();
+    return !product.is_zero() &&
+           std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
+             const Polynomial& f = factor.first;
+             return f.is_constant() || !depends_on_parameters(f) || ring_.is_nowhere_zero(f) ||
+                    was_looked_at(f) || is_never_identically_zero(f);
+           });
+  };
+  return has_no_zeros(ring_.lowest_terms(minor).first) || has_no_zeros(minor);
+}
+
+PolynomialRows SpecialParameters::minor_of(const Indices& rows, const Indices& columns) const {
+  PolynomialRows minor;
+  for (const std::size_t i : rows) {
+    minor.emplace_back();
+    for (const std::size_t j : columns) minor.back().push_back(rows_[i][j]);
+  }
+  return minor;
+}
+
+/// A sum of independent functions without parameters, of which one coefficient is not zero at all
+/// parameters beside the zeros of the factors that were looked at. Where no function has parameters
+/// it is enough that the coefficients have no other factor in common: then they vanish together for
+/// fewer parameters than one equation leaves.
+bool SpecialParameters::is_never_identically_zero(const Polynomial& f) {
   std::map<std::vector<unsigned long>, Polynomial> coefficients;
+  bool polynomial = true;
   for (const auto& [number, exponents] : f.term_list()) {
     std::vector<unsigned long> others(exponents.size()), own(exponents.size());
     for (std::size_t i = 0; i < exponents.size(); ++i) {
-      if (exponents[i] > 0 && i >= ring_.symbols().size()) return false;
+      if (exponents[i] > 0 && i >= ring_.symbols().size()) {
+        if (depends_on_parameters(ring().variable(i))) return false;
+        polynomial = false;
+      }
       (is_parameter(i) ? own : others)[i] = exponents[i];
     }
     TermCollector term(ring());
     term.add(number, own);
     coefficients.try_emplace(others, ring()).first->second += term.finish();
   }
-  return std::any_of(coefficients.begin(), coefficients.end(), [&](const auto& coefficient) {
-    return ring_.is_nowhere_zero(coefficient.second);
-  });
+  const auto lasts = [&](const Polynomial& coefficient) {
+    const auto factors = coefficient.factors();
+    return ring_.is_nowhere_zero(coefficient) ||
+           std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
+             return factor.first.is_constant() || was_looked_at(factor.first);
+           });
+  };
+  Polynomial common(ring());
+  bool any = false;
+  for (const auto& [unused, coefficient] : coefficients) {
+    any = any || lasts(coefficient);
+    common = Polynomial::gcd(common, coefficient);
+  }
+  if (!any && (with_functions_ || !lasts(common))) return false;
+  if (polynomial) return true;
+  std::vector<Polynomial> functions;
+  for (const auto& [exponents, unused] : coefficients) {
+    TermCollector term(ring());
+    term.add(1, exponents);
+    functions.push_back(term.finish());
+  }
+  return independent_on_pieces(prover_, functions);
+}
+
+bool SpecialParameters::was_looked_at(const Polynomial& f) const {
+  return std::find(factors_.begin(), factors_.end(), f.scaled(1 / f.content())) != factors_.end();
 }
 
 /// Functions such as sin(a*q) and sin(b*q) may become dependent, and functions such as sin(a) and
@@ -382,23 +449,51 @@ void SpecialParameters::say_that_others_are_open() {
   add(fmt::format("{} {} generic", fmt::join(names, ", "), names.size() == 1 ? "is" : "are"));
 }
 
-/// Two linear equations that make all minors vanish.
+/// Minors at some numbers, with another row or another column than the regular one, or both.
+std::vector<Polynomial> SpecialParameters::neighbouring_minors() const {
+  constexpr std::size_t kMost = 60;
+  if (regular_.first.size() < rank_ || regular_.second.size() < rank_) return {};
+  std::mt19937 random(20190109);
+  std::vector<cln::cl_RA> numbers(ring().size());
+  for (cln::cl_RA& n : numbers) n = cln::cl_RA(static_cast<long>(random() % 997) - 498);
+  std::vector<Polynomial> result;
+  for (const Indices& rows : with_one_changed(regular_.first, rows_.size())) {
+    for (const Indices& columns : with_one_changed(regular_.second, rows_[0].size())) {
+      if (result.size() == kMost) return result;
+      PolynomialRows minor;
+      for (const std::size_t i : rows) {
+        minor.emplace_back();
+        for (const std::size_t j : columns)
+          minor.back().push_back(at_numbers(rows_[i][j], numbers));
+      }
+      const auto value = short_determinant(std::move(minor), ring());
+      if (value && !value->is_zero()) result.push_back(*value);
+    }
+  }
+  return result;
+}
+
+/// Linear equations that make all minors vanish.
 void SpecialParameters::look_at_pairs() {
   constexpr GroebnerLimits kLimits{.reductions = 100, .elements = 20, .terms = 100};
   if (minors_.size() < 2 || minors_.back().is_constant()) return;
   std::vector<Polynomial> simple;  // with the same zeros
-  for (const Polynomial& m : minors_) {
-    simple.push_back(ring().constant(1));
-    for (const auto& [f, exponent] : m.factors())
-      if (!f.is_constant()) simple.back() *= f;
+  const auto add_simple = [&](const Polynomial& minor) {
+    Polynomial product = ring().constant(1);
+    for (const auto& [f, exponent] : minor.factors())
+      if (!f.is_constant()) product *= f;
+    if (std::find(simple.begin(), simple.end(), product) == simple.end()) simple.push_back(product);
+  };
+  for (const Polynomial& m : minors_) add_simple(m);
+  for (const Polynomial& m : neighbouring_minors()) {
+    if (m.is_constant()) return;
+    add_simple(m);
   }
-  const bool linear = std::all_of(simple.begin(), simple.end(),
+  const std::vector<Polynomial> basis = groebner_basis(simple, kLimits);
+  const bool linear = std::all_of(basis.begin(), basis.end(),
                                   [](const Polynomial& m) { return m.total_degree() == 1; });
-  if (linear) {
-    const std::vector<Polynomial> basis = groebner_basis(simple, kLimits);
-    if (basis.size() > 1) {
-      if (const auto set = solved_for_parameters(basis, places_)) look_at_set(*set);
-    }
+  if (linear && basis.size() > 1) {
+    if (const auto set = solved_for_parameters(basis, places_)) look_at_set(*set);
   }
   const std::vector<ParameterForm> forms = parameter_forms(ring(), places_);
   std::vector<MinorModulo> modular;
@@ -424,8 +519,10 @@ void SpecialParameters::look_at_pairs() {
   }
 }
 
-void SpecialParameters::look_at_set(const ParameterEquations& set) {
+void SpecialParameters::look_at_set(ParameterEquations set) {
   if (set.values.size() < 2) return;
+  std::sort(set.values.begin(), set.values.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
   const auto vanishes = [&](const Polynomial& f) { return set.reduced(f).is_zero(); };
   if (std::any_of(excluded_.begin(), excluded_.end(), vanishes)) return;
   for (const ParameterEquations& known : sets_)
@@ -447,24 +544,34 @@ void SpecialParameters::look_at_set(const ParameterEquations& set) {
       at[place] = prover_.ring().expression(value).subs(others);
     return true;
   };
-  if (!lowers_rank(put, &tried)) return;
+  constexpr int kDraws = 50;  // a condition that is not confirmed is none here
+  if (!lowers_rank(put, &tried, kDraws)) return;
   sets_.push_back(set);
   add(text + " != 0");
 }
 
-/// Puts numerators into the rows, and returns the factors of what they were divided by.
-std::vector<Polynomial> clear_denominators(const FunctionRing& ring, PolynomialRows& rows) {
-  std::vector<Polynomial> denominators;
+/// Whether a generator of the ring occurs.
+bool has_generators(const FunctionRing& ring, const std::vector<Polynomial>& row) {
+  const std::vector<bool> used = used_variables({row});
+  return std::find(used.begin() +
+                       static_cast<std::ptrdiff_t>(std::min(used.size(), ring.symbols().size())),
+                   used.end(), true) != used.end();
+}
+
+/// Puts numerators that are reduced by all relations into the rows, and returns the factors of what
+/// they were divided by; nothing where these are polynomials already.
+std::optional<std::vector<Polynomial>> clear_denominators(const FunctionRing& ring,
+                                                          PolynomialRows& rows) {
+  std::optional<std::vector<Polynomial>> denominators;
   for (std::vector<Polynomial>& row : rows) {
-    bool divides = false;
+    if (!has_generators(ring, row)) continue;
+    if (!denominators) denominators.emplace();
     for (const Polynomial& p : row) {
       const Polynomial bottom = ring.lowest_terms(p).second;
-      if (bottom.is_constant()) continue;
-      divides = true;
       for (const auto& [f, exponent] : bottom.factors())
-        if (!f.is_constant()) denominators.push_back(f);
+        if (!f.is_constant()) denominators->push_back(f);
     }
-    if (divides) row = ring.common_numerators(std::move(row));
+    row = ring.common_numerators(std::move(row));
   }
   return denominators;
 }
@@ -477,12 +584,12 @@ std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows&
   // The rank is that of rows times what vanishes nowhere: of v/(v + a) - v/(v + b) the factor a - b
   // is seen in the numerator alone.
   PolynomialRows numerators = rows;
-  std::vector<Polynomial> denominators;
+  std::optional<std::vector<Polynomial>> denominators;
   try {
     denominators = clear_denominators(prover.ring(), numerators);
   } catch (const TooLarge&) {  // it is for almost all values then, as without them
   }
-  if (denominators.empty()) return conditions;
+  if (!denominators) return conditions;
   for (std::string& more :
        SpecialParameters(prover, numerators, rank, std::move(denominators)).run())
     if (std::find(conditions.begin(), conditions.end(), more) == conditions.end())

@@ -11,6 +11,7 @@
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/parameter_minors.hpp"
+#include "symbolic/proof/special_parameters.hpp"
 
 namespace casimir {
 namespace {
@@ -24,7 +25,7 @@ Polynomial without_powers(const Polynomial& p,
   return product;
 }
 
-PolynomialRows taken(const PolynomialRows& rows, const std::vector<std::size_t>& columns) {
+PolynomialRows columns_of(const PolynomialRows& rows, const std::vector<std::size_t>& columns) {
   PolynomialRows result;
   for (const auto& row : rows) {
     auto& part = result.emplace_back();
@@ -46,9 +47,9 @@ PolynomialRows pivots(RealPoint& point, const PolynomialRows& matrix, std::size_
   for (std::size_t c = 0; !rows.empty() && c < rows[0].size() && columns.size() < rows.size();
        ++c) {
     columns.push_back(c);
-    if (point.rank(taken(rows, columns)) < columns.size()) columns.pop_back();
+    if (point.rank(columns_of(rows, columns)) < columns.size()) columns.pop_back();
   }
-  return columns.size() == rows.size() ? taken(rows, columns) : PolynomialRows{};
+  return columns.size() == rows.size() ? columns_of(rows, columns) : PolynomialRows{};
 }
 
 }  // namespace
@@ -132,6 +133,65 @@ bool ConstraintSet::have_ranks_everywhere(RealPoint& point, std::vector<RankedRo
   return has_irreducible_zeros(reduced_, is_rational(point)) ||
          std::ranges::all_of(
              all, [&](const RankedRows& one) { return has_rank_everywhere(point, one); });
+}
+
+std::vector<std::string> ConstraintSet::needed_parameters_of(RealPoint& point,
+                                                             const RankedRows& one) const {
+  std::vector<std::string> conditions;
+  const std::size_t rank = rank_at(point, one);
+  if (prover_.model().parameters.empty() || rank == 0 || !are_polynomials({reduced_}))
+    return conditions;
+  const std::vector<Polynomial> basis = groebner_basis(reduced_);
+  PolynomialRows rows = one.rows;
+  for (auto& row : rows) {
+    row = prover_.ring().common_numerators(std::move(row));
+    if (!are_polynomials({row})) return conditions;
+    std::vector<Polynomial> quotients;
+    for (Polynomial& p : row) p = p.remainder(basis, &quotients);
+  }
+  conditions = needed_parameters(prover_, rows, rank);
+  const PolynomialRows chosen = pivots(point, rows, rank);
+  const auto minor = short_determinant(chosen, prover_.ring().ring());
+  if (chosen.size() < rank || !minor || minor->is_constant()) return conditions;
+  std::vector<Polynomial> both = reduced_;
+  both.push_back(without_powers(*minor, [](const Polynomial&) { return true; }));
+  add_values_at(both, conditions);
+  add_singular_values(conditions);
+  return conditions;
+}
+
+/// The parameters for which the equations have a solution, where polynomials in these alone say so.
+void ConstraintSet::add_values_at(const std::vector<Polynomial>& equations,
+                                  std::vector<std::string>& conditions) const {
+  constexpr GroebnerLimits kLimits{200, 60, 2000};
+  for (const Polynomial& p : groebner_basis(equations, kLimits)) {
+    if (p.is_constant() || has_variables(p)) continue;
+    for (const auto& [factor, power] : p.factors()) {
+      if (factor.is_constant() || prover_.ring().is_nowhere_zero(factor)) continue;
+      const std::string condition = prover_.ring().text(factor) + " != 0";
+      if (std::ranges::find(conditions, condition) == conditions.end())
+        conditions.push_back(condition);
+    }
+  }
+}
+
+void ConstraintSet::add_singular_values(std::vector<std::string>& conditions) const {
+  constexpr std::size_t kMostMinors = 60;
+  std::vector<char> taken(prover_.dimension());
+  if (reduced_.size() > taken.size()) return;
+  std::fill(taken.end() - static_cast<std::ptrdiff_t>(reduced_.size()), taken.end(), 1);
+  std::vector<Polynomial> singular = reduced_;
+  std::size_t minors = 0;
+  do {
+    if (++minors > kMostMinors) return;
+    std::vector<std::size_t> columns;
+    for (std::size_t c = 0; c < taken.size(); ++c)
+      if (taken[c] != 0) columns.push_back(c);
+    const auto minor = short_determinant(columns_of(slopes_, columns), prover_.ring().ring());
+    if (!minor) return;
+    if (!minor->is_zero()) singular.push_back(*minor);
+  } while (std::ranges::next_permutation(taken).found);
+  add_values_at(singular, conditions);
 }
 
 bool ConstraintSet::is_regular(RealPoint& point) const {

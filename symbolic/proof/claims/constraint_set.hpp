@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "symbolic/proof/claims/ranks.hpp"
@@ -44,6 +45,14 @@ class ConstraintSet {
   /// hypotheses above. False where one is not shown.
   bool have_ranks_everywhere(RealPoint& point, std::vector<RankedRows> all) const;
 
+  /// Conditions on parameters without which the rank is smaller everywhere on the set, as of
+  /// `needed_parameters`: u^2 - a^2 is a - a^2 where u^2 = a. Those that are found: of polynomials.
+  /// A polynomial in parameters alone that is zero wherever the constraints are and a minor, or
+  /// where the set is not smooth, gives the values at which these may be so all over it: u is zero
+  /// all over u^2 = a, and over u^2 + v^2 = a, at a = 0. Its factors are conditions.
+  /// \param point  of the set
+  std::vector<std::string> needed_parameters_of(RealPoint& point, const RankedRows& one) const;
+
   /// Whether a function is certainly constant on each part, for fixed parameters: up to a
   /// combination of the constraints it has no variable.
   bool makes_constant(const NamedExpression& f) const;
@@ -57,6 +66,9 @@ class ConstraintSet {
   bool has_variables(const Polynomial& p) const;
   bool is_rational(const RealPoint& point) const;
   bool has_rank_everywhere(RealPoint& point, const RankedRows& one) const;
+  void add_values_at(const std::vector<Polynomial>& equations,
+                     std::vector<std::string>& conditions) const;
+  void add_singular_values(std::vector<std::string>& conditions) const;
 
   Prover& prover_;
   std::vector<Polynomial> numerators_;

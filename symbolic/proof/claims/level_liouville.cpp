@@ -51,7 +51,7 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
     return;
   }
   if (!is_poisson(prover)) {
-    proof.reason = "the Jacobi identity is not proved";
+    proof.reason = "the Jacobi identity is not proved where all functions of this have values";
     return;
   }
   const Level level = prover.level(all);

@@ -8,6 +8,7 @@
 
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/claims/density.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
@@ -120,6 +121,26 @@ bool keeps_constraints(Prover& prover, bool every) {
   return has_no_trace(prover, functions);
 }
 
+/// What is not zero around the phase space may be zero all over it.
+void require_on_constraints(Prover& prover, Proof& proof, const GiNaC::ex& density) {
+  if (prover.model().constraints.empty() || GiNaC::is_a<GiNaC::numeric>(density)) return;
+  const Polynomial rho = prover.convert(density), top = prover.ring().numerator(rho);
+  if (prover.ring().is_nowhere_zero(top) || prover.is_nowhere_zero_on_constraints(top)) return;
+  Proof at_exact_point = proof;
+  require_on_constraints(prover, at_exact_point, {{{{rho}}, 1}});
+  if (at_exact_point.verdict == Verdict::proved) {
+    proof = std::move(at_exact_point);
+  } else if (prover.is_nonzero_somewhere_on_constraints(density)) {
+    proof.where.emplace_back(
+        "on parts of the constraints where the density is not zero throughout");
+  } else {
+    proof.verdict = Verdict::undecided;
+    proof.evidence.clear();
+    proof.where.clear();
+    proof.reason = "no point of the constraints was found at which the density is not zero";
+  }
+}
+
 void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density, bool every) {
   if (!keeps_constraints(prover, every)) {
     proof.reason = kNoMeasureOnConstraints;
@@ -140,14 +161,23 @@ void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density
 }  // namespace
 
 void judge_density(Prover& prover, Proof& proof, const GiNaC::ex& density) {
+  // x (1 + y^2) = 0 is the line x = 0 as well, on which dx dy leaves dy/(1 + y^2) then.
+  constexpr const char* kOnThem =
+      "on the constraints c, as they are written, it is density*dx/dc that is kept";
+  if (proof.verdict == Verdict::refuted && !prover.model().constraints.empty())
+    proof.reason += fmt::format("; {}, if anything", kOnThem);
   if (proof.verdict != Verdict::proved) return;
   bool both_signs = false;
   proof.reason = doubt_about(prover, density, &both_signs, &proof.where);
   if (!proof.reason.empty()) {
     proof.verdict = Verdict::undecided;
-  } else if (both_signs) {
-    proof.evidence = "the density has both signs: it is a measure only on parts of the domain";
+    return;
   }
+  if (both_signs)
+    proof.evidence = "the density has both signs: it is a measure only on parts of the domain";
+  if (!prover.model().constraints.empty())
+    proof.evidence += fmt::format("{}{}", proof.evidence.empty() ? "" : "; ", kOnThem);
+  require_on_constraints(prover, proof, density);
 }
 
 std::vector<Claim> measure_claims(const Model& model) {

@@ -65,16 +65,23 @@ void require(Prover& prover, Proof& proof, const ConstraintSet& constraints,
              const std::vector<RankedRows>& all) {
   std::string part;
   bool of_all = false;
+  std::vector<std::string> needed;
   const bool any = look_at_points(prover, constraints, [&](RealPoint& point) {
     for (const RankedRows& one : all) {
       if (point.rank(one.rows) < rank_at(point, one)) return false;
       // At the cusp of v^2 = u^3 no gradient is that of the constraint, and u and v are dependent.
       if (!one.beyond.empty() && !constraints.is_regular(point)) return false;
     }
-    if (part.empty()) part = name_of(prover.model(), point);
+    if (part.empty()) {
+      part = name_of(prover.model(), point);
+      for (const RankedRows& one : all)
+        for (std::string& condition : constraints.needed_parameters_of(point, one))
+          needed.push_back(std::move(condition));
+    }
     of_all = constraints.have_ranks_everywhere(point, all);
     return of_all;
   });
+  if (!part.empty()) say_where(proof, "", needed);
   if (of_all) return;
   if (!part.empty()) {
     // The parts are those of the space of both.

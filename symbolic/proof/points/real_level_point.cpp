@@ -146,48 +146,59 @@ class Newton {
 
 }  // namespace
 
-bool RealLevelPoints::exists(const Level& level, const std::vector<ex>& expressions) {
-  if (at_simple_point(level, expressions) || at_rational_point(level, expressions)) return true;
+std::optional<BallEvaluator> RealLevelPoints::find(const Level& level,
+                                                   const std::vector<ex>& expressions,
+                                                   bool differentiable) {
+  differentiable_ = differentiable;
+  if (auto point = at_simple_point(level, expressions)) return point;
+  if (auto point = at_rational_point(level, expressions)) return point;
   constexpr int kStarts = 60;
-  if (real_.numbers() == BallEvaluator::Numbers::complex) return false;
+  if (real_.numbers() == BallEvaluator::Numbers::complex) return std::nullopt;
   for (int i = 0; i < kStarts; ++i) {
-    if (near(level, real_.draw(), expressions)) return true;
+    std::optional<BallEvaluator> box = near(level, real_.draw());
+    if (box && admits(*box, expressions)) return box;
   }
-  return false;
+  return std::nullopt;
 }
 
-bool RealLevelPoints::at_rational_point(const Level& level, const std::vector<ex>& expressions) {
+bool RealLevelPoints::admits(BallEvaluator& at, const std::vector<ex>& expressions) const {
+  return real_.admits(at, expressions) && (!differentiable_ || at.smooth());
+}
+
+std::optional<BallEvaluator> RealLevelPoints::at_rational_point(
+    const Level& level, const std::vector<ex>& expressions) {
   constexpr int kPoints = 12;
   for (int i = 0; i < kPoints; ++i) {
     const auto point = exact_.rational(level);
-    if (!point) return false;
+    if (!point) return std::nullopt;
     std::vector<ex> coordinates;
     for (std::size_t k = 0; k < ring_.symbols().size(); ++k)
       coordinates.emplace_back(GiNaC::numeric((*point)[k]));
     RealPoint real = real_.at(std::move(coordinates));
-    if (real_.admits(real, expressions)) return true;
+    if (admits(real.evaluator(), expressions)) return std::move(real.evaluator());
   }
-  return false;
+  return std::nullopt;
 }
 
 /// The states of scenes; zeros, ones and other small numbers: singular levels, such as q^2 + p^2 =
 /// 0, have no other points.
-bool RealLevelPoints::at_simple_point(const Level& level, const std::vector<ex>& expressions) {
+std::optional<BallEvaluator> RealLevelPoints::at_simple_point(const Level& level,
+                                                              const std::vector<ex>& expressions) {
   for (std::vector<ex>& scene : real_.scenes()) {
-    if (is_on(std::move(scene), level, expressions)) return true;
+    if (auto point = on(std::move(scene), level, expressions)) return point;
   }
   constexpr int kTrials = 200;
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<ex> coordinates = real_.draw_simple(trial % 2 == 1);
     if (trial == 0) coordinates.assign(coordinates.size(), 0);
-    if (is_on(std::move(coordinates), level, expressions)) return true;
+    if (auto point = on(std::move(coordinates), level, expressions)) return point;
   }
-  return false;
+  return std::nullopt;
 }
 
-bool RealLevelPoints::is_on(std::vector<ex> coordinates, const Level& level,
-                            const std::vector<ex>& expressions) {
-  const auto lies_on_it = [&] {
+std::optional<BallEvaluator> RealLevelPoints::on(std::vector<ex> coordinates, const Level& level,
+                                                 const std::vector<ex>& expressions) {
+  const auto point_on_it = [&]() -> std::optional<BallEvaluator> {
     RealPoint point = real_.at(std::move(coordinates));
     const bool on_level =
         std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {
@@ -196,14 +207,15 @@ bool RealLevelPoints::is_on(std::vector<ex> coordinates, const Level& level,
           const auto value = exact_constant(substituted(f, values_of(point), real_.limits()));
           return value && value->zero;
         });
-    return on_level && real_.admits(point, expressions);
+    if (on_level && admits(point.evaluator(), expressions)) return std::move(point.evaluator());
+    return std::nullopt;
   };
   try {
-    return where_defined(lies_on_it).value_or(false);
+    return where_defined(point_on_it).value_or(std::nullopt);
   } catch (const NotCertified&) {
-    return false;
+    return std::nullopt;
   } catch (const TooLarge&) {
-    return false;
+    return std::nullopt;
   }
 }
 
@@ -214,14 +226,12 @@ GiNaC::exmap RealLevelPoints::values_of(const RealPoint& point) const {
   return values;
 }
 
-bool RealLevelPoints::near(const Level& level, const std::vector<ex>& start,
-                           const std::vector<ex>& expressions) {
+std::optional<BallEvaluator> RealLevelPoints::near(const Level& level,
+                                                   const std::vector<ex>& start) {
   try {
-    std::optional<BallEvaluator> box =
-        Newton(ring_, real_.numbers(), level.functions, start).solve();
-    return box && real_.admits(*box, expressions);
+    return Newton(ring_, real_.numbers(), level.functions, start).solve();
   } catch (const NotCertified&) {
-    return false;
+    return std::nullopt;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "symbolic/proof/level.hpp"
@@ -17,20 +18,26 @@ class RealLevelPoints {
   RealLevelPoints(const FunctionRing& ring, RealPoints& real, PointSearch& exact)
       : ring_(ring), real_(real), exact_(exact) {}
 
-  bool exists(const Level& level, const std::vector<GiNaC::ex>& expressions);
+  /// \param differentiable  so that the expressions are, too, at the point
+  std::optional<BallEvaluator> find(const Level& level, const std::vector<GiNaC::ex>& expressions,
+                                    bool differentiable = false);
 
  private:
-  bool at_simple_point(const Level& level, const std::vector<GiNaC::ex>& expressions);
-  bool is_on(std::vector<GiNaC::ex> coordinates, const Level& level,
-             const std::vector<GiNaC::ex>& expressions);
-  bool at_rational_point(const Level& level, const std::vector<GiNaC::ex>& expressions);
+  std::optional<BallEvaluator> at_simple_point(const Level& level,
+                                               const std::vector<GiNaC::ex>& expressions);
+  std::optional<BallEvaluator> on(std::vector<GiNaC::ex> coordinates, const Level& level,
+                                  const std::vector<GiNaC::ex>& expressions);
+  std::optional<BallEvaluator> at_rational_point(const Level& level,
+                                                 const std::vector<GiNaC::ex>& expressions);
   GiNaC::exmap values_of(const RealPoint& point) const;
-  bool near(const Level& level, const std::vector<GiNaC::ex>& start,
-            const std::vector<GiNaC::ex>& expressions);
+  std::optional<BallEvaluator> near(const Level& level, const std::vector<GiNaC::ex>& start);
+
+  bool admits(BallEvaluator& at, const std::vector<GiNaC::ex>& expressions) const;
 
   const FunctionRing& ring_;
   RealPoints& real_;
   PointSearch& exact_;
+  bool differentiable_ = false;
 };
 
 }  // namespace casimir

@@ -153,17 +153,7 @@ bool RealPoint::may_be_orthogonal(const Values& a, const Values& b) const {
   return cln::zerop(sum) && total.contains_zero();
 }
 
-std::size_t RealPoint::rank(const PolynomialRows& rows) {
-  if (!exact_.empty()) {
-    RationalMatrix exact;
-    for (const auto& row : rows) {
-      exact.emplace_back();
-      for (const Polynomial& p : row) exact.back().push_back(p.is_zero() ? 0 : p.evaluate(exact_));
-    }
-    return casimir::rank(exact);
-  }
-  std::vector<std::vector<Ball>> matrix = values(rows);
-  const long bits = evaluator_.bits();
+std::size_t least_rank(std::vector<std::vector<Ball>> matrix, long bits) {
   const std::size_t columns = matrix.empty() ? 0 : matrix[0].size();
   std::vector<bool> used(columns);
   std::size_t rank = 0;
@@ -189,6 +179,18 @@ std::size_t RealPoint::rank(const PolynomialRows& rows) {
     }
   }
   return rank;
+}
+
+std::size_t RealPoint::rank(const PolynomialRows& rows) {
+  if (!exact_.empty()) {
+    RationalMatrix exact;
+    for (const auto& row : rows) {
+      exact.emplace_back();
+      for (const Polynomial& p : row) exact.back().push_back(p.is_zero() ? 0 : p.evaluate(exact_));
+    }
+    return casimir::rank(exact);
+  }
+  return least_rank(values(rows), evaluator_.bits());
 }
 
 std::string RealPoint::text() const {

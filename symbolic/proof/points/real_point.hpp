@@ -14,6 +14,10 @@ namespace casimir {
 
 using PolynomialRows = std::vector<std::vector<Polynomial>>;
 
+/// The rank of a matrix is at least this: so many pivots are certainly not zero.
+/// \param matrix  rows of one size
+std::size_t least_rank(std::vector<std::vector<Ball>> matrix, long bits);
+
 /// A point with exact coordinates at which functions of a ring are evaluated in ball arithmetic:
 /// what is not zero there is not zero, whether or not the ring knows all relations of its
 /// generators.

@@ -2,6 +2,8 @@
 // what is so outside of them neither proves nor refutes anything. Each test drops a hypothesis.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
 
@@ -266,6 +268,114 @@ z = "0"
 density = "1"
 )toml");
   EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+}
+
+/// so(3) with a coordinate c that moves with nothing.
+std::string so3_within(const std::string& hamiltonian, const std::string& constraint,
+                       const std::string& more) {
+  return "hamiltonian = \"" + hamiltonian + R"toml("
+[phase_space]
+variables = ["x", "y", "z", "c"]
+brackets = { "x,y" = "z", "y,z" = "x", "z,x" = "y" }
+constraints = [")toml" +
+         constraint + "\"]\n" + more;
+}
+
+// What is not zero around the constraints may be zero, or have no value, all over them.
+TEST(Constraints, ADensityIsNotZeroOnThem) {
+  const auto measure = [](const std::string& density, const std::string& constraint) {
+    return proof_within("measure", so3_within("x*y", constraint,
+                                              "[[measure]]\ndensity = \"" + density + "\"\n"))
+        .verdict;
+  };
+  for (const char* density : {"c", "c^2", "abs(c)", "1/c", "1/c^2"})
+    EXPECT_EQ(measure(density, "c"), Verdict::undecided) << density;
+  for (const char* density : {"c - 1", "1/(c - 1)", "x^2 + y^2 + z^2", "2"})
+    EXPECT_EQ(measure(density, "c"), Verdict::proved) << density;
+  const std::string sphere = "x^2 + y^2 + z^2 - 1";
+  for (const char* density : {"x^2 + y^2 + z^2 - 1", "sqrt(x^2 + y^2 + z^2 - 2)",
+                              "log(x^2 + y^2 + z^2)", "1/(x^2 + y^2 + z^2 - 1)"})
+    EXPECT_EQ(measure(density, sphere), Verdict::undecided) << density;
+  EXPECT_EQ(measure("sqrt(x^2 + y^2 + z^2)", sphere), Verdict::proved);
+  // Without a rational point (7 is no sum of three squares), of which c is free.
+  EXPECT_EQ(measure("c", "x^2 + y^2 + z^2 - 7"), Verdict::proved);
+}
+
+// A claim about functions that have a value at no point of the constraints is about nothing.
+TEST(Constraints, AClaimIsAboutAPointOfThem) {
+  const auto verdicts = [&](const std::string& root, const std::string& constraint) {
+    std::set<Verdict> found;
+    for (const char* kind : {"casimir", "integral"}) {
+      const Proof proof = proof_within(
+          kind, so3_within("x^2 + 2*y^2", constraint,
+                           "[casimirs]\nC = \"" + root + "\"\n[integrals]\nF = \"x^2 + 2*y^2 + " +
+                               root + "\"\n"));
+      found.insert(proof.verdict);
+      if (proof.verdict == Verdict::undecided) {
+        EXPECT_NE(proof.reason.find("about nothing"), std::string::npos) << proof.reason;
+      }
+    }
+    return found;
+  };
+  using Set = std::set<Verdict>;
+  const std::string sphere = "x^2 + y^2 + z^2 - 1";
+  EXPECT_EQ(verdicts("sqrt(x^2 + y^2 + z^2 - 2)", sphere), Set{Verdict::undecided});
+  EXPECT_EQ(verdicts("log(1/2 - x^2 - y^2 - z^2)", sphere), Set{Verdict::undecided});
+  EXPECT_EQ(verdicts("sqrt(x^2 + y^2 + z^2)", sphere), Set{Verdict::proved});
+  // A value on a set without inner points, where it is not differentiable.
+  EXPECT_EQ(verdicts("sqrt(c - (x^2 + y^2 + z^2))", "c"), Set{Verdict::undecided});
+  EXPECT_EQ(verdicts("sqrt(1 - (x^2 + y^2 + z^2))", sphere), Set{Verdict::undecided});
+  // No rational point.
+  EXPECT_EQ(verdicts("sqrt(x^2 + y^2 + z^2)", "x^2 + y^2 + z^2 - 7"), Set{Verdict::proved});
+  // An empty phase space.
+  EXPECT_EQ(verdicts("x^2 + y^2 + z^2", "x^2 + y^2 + z^2 + 1"), Set{Verdict::undecided});
+}
+
+// u^2 - a^2 is a - a^2 where u^2 = a, and z (b - |x|^2) is zero on the sphere of the radius r where
+// b = r^2: no minor off the constraints shows it.
+TEST(Constraints, ConditionsOnParametersAreThoseOnThem) {
+  const auto where = [](const std::string& kind, const std::string& text) {
+    const Proof proof = proof_within(kind, text);
+    EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+    return std::set<std::string>(proof.where.begin(), proof.where.end());
+  };
+  EXPECT_EQ(where("rank", R"toml(
+hamiltonian = "x"
+[phase_space]
+variables = ["x", "y", "u"]
+brackets = { "x,y" = "u^2 - a^2" }
+constraints = ["u^2 - a"]
+[parameters]
+a = {}
+)toml")
+                .count("a - 1 != 0"),
+            1U);
+  // u is zero all over u^2 = a at a = 0, and not modulo the constraint.
+  EXPECT_EQ(where("rank", R"toml(
+hamiltonian = "x"
+[phase_space]
+variables = ["x", "y", "u"]
+brackets = { "x,y" = "u" }
+constraints = ["u^2 - a"]
+[parameters]
+a = {}
+)toml")
+                .count("a != 0"),
+            1U);
+  EXPECT_EQ(where("independence", R"toml(
+hamiltonian = "z*(b - x^2 - y^2 - z^2)"
+[phase_space]
+variables = ["x", "y", "z"]
+algebra = "so(3)"
+constraints = ["x^2 + y^2 + z^2 - r^2"]
+[casimirs]
+R = "x^2 + y^2 + z^2"
+[parameters]
+b = {}
+r = {}
+)toml")
+                .count("r^2 - b != 0"),
+            1U);
 }
 
 // At a point where the constraint has no gradient functions may seem independent that it makes

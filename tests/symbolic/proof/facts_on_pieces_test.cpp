@@ -122,6 +122,42 @@ TEST(SpecialParameters, AreConditionsOfIndependenceAndOfLiouvillesCount) {
   }
 }
 
+// Numbers that are put for sines, roots and quotients obey no relation, and show no factor.
+TEST(SpecialParameters, AreFoundThroughRelationsOfFunctions) {
+  using Set = std::set<std::string>;
+  for (const char* kind : {"independence", "liouville"}) {
+    for (const char* f : {"p1*(a*sin(p2)^2 + cos(p2)^2 - 1)", "p1*(a*cos(2*p2) - 1 + 2*sin(p2)^2)",
+                          "p1*(a/(p2 + 1) + a*p2/(p2 + 1) - 1)",
+                          "p1*(a*p1^2/sqrt(p1^2 + p2^2)^2 + a*p2^2/(p1^2 + p2^2) - 1)"})
+      EXPECT_EQ(conditions_of(kind, f).count("a - 1 != 0"), 1U) << kind << ' ' << f;
+    // On one of the pieces alone, or by a relation that the ring does not know.
+    for (const char* f : {"a*abs(p1) - p1", "p1*(sqrt((1 - cos(p2))/2) - a*sin(p2/2))"})
+      EXPECT_EQ(conditions_of(kind, f).count("a is generic"), 1U) << kind << ' ' << f;
+    // Independent functions, which vanish together for no parameters.
+    for (const char* f : {"p1*(a*sin(p2) + cos(p2))", "a*sqrt(p1^2 + 1) + p1", "a*abs(p1) + p1^3",
+                          "p1*exp(p2) + a*log(p1^2 + 1)"})
+      EXPECT_EQ(conditions_of(kind, f), Set{}) << kind << ' ' << f;
+  }
+}
+
+// At a = b = 1 alone the bracket is zero: no factor of one minor is one of all.
+TEST(SpecialParameters, AreFoundInMinorsWithOtherRows) {
+  const auto where = [](const std::string& xy, const std::string& yz) {
+    return proof_in_case("rank",
+                         "hamiltonian = \"x\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n"
+                         "brackets = { \"x,y\" = \"" +
+                             xy + "\", \"y,z\" = \"" + yz + "\" }\n[parameters]\na = {}\nb = {}\n")
+        .where;
+  };
+  using Conditions = std::vector<std::string>;
+  EXPECT_EQ(where("a - 1", "b - 1"), Conditions{"(a - 1)^2 + (b - 1)^2 != 0"});
+  EXPECT_EQ(where("a", "b"), Conditions{"a^2 + b^2 != 0"});
+  EXPECT_EQ(where("a", "b + 1 - a"), Conditions{"a^2 + (b + 1)^2 != 0"});
+  EXPECT_EQ(where("a", "1"), Conditions{});
+  EXPECT_EQ(where("(a - 1)*sin(z) + (b - 1)*cos(z)", "0"),
+            Conditions{"(a - 1)^2 + (b - 1)^2 != 0"});
+}
+
 TEST(SpecialParameters, InFunctionsAreConditionsToo) {
   using Set = std::set<std::string>;
   const Set generic{"a, b are generic"};
