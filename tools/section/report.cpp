@@ -149,8 +149,10 @@ void print_cycles(const SectionReport& report) {
     if (!report.proofs.empty()) print(report.proofs[k], report.ranges);
   }
   if (report.cycles.degenerate > 0)
-    fmt::print("  {} more were left out: they belong to families, as in integrable systems\n",
-               report.cycles.degenerate);
+    fmt::print(
+        "  {} more were left out: an eigenvalue of the return is 1, to within {:g}, as those of "
+        "families have it, in integrable systems\n",
+        report.cycles.degenerate, kDegenerateCycle);
 }
 
 }  // namespace

@@ -186,6 +186,71 @@ TEST(Section, LevelsWithoutMotionAreRefused) {
   EXPECT_NE(top.err.find("begin at"), std::string::npos) << top.err;
 }
 
+// Far from the scene, where no random point of its size is on the level.
+TEST(Section, LevelsFarFromTheSceneAreFound) {
+  for (const char* energy : {"10000", "749999.4"}) {
+    const Outcome far = run({"section", "kovalevskaya", "--energy", energy, "--casimir", "F2=0",
+                             "--orbits", "2", "--points", "5", "--json"});
+    ASSERT_EQ(far.status, 0) << far.err;
+    EXPECT_EQ(far.json().at("orbits").size(), 2U);
+  }
+}
+
+// What is constant for the values of a scene is left out of the programs: what stands behind it
+// may not take its place.
+TEST(Section, FunctionsThatAreConstantHaveNoPlace) {
+  const char* const kDead = R"toml(
+hamiltonian = "(M1^2 + M2^2 + 2*M3^2)/2 - g1"
+[phase_space]
+variables = ["M1", "M2", "M3", "g1", "g2", "g3"]
+algebra = "e(3)"
+[parameters]
+k = {}
+[casimirs]
+Z = "k*(g1^2 + g2^2 + g3^2)"
+F1 = "g1^2 + g2^2 + g3^2"
+F2 = "M1*g1 + M2*g2 + M3*g3"
+[section]
+function = "M3"
+plot = ["g1", "M2"]
+[[scene]]
+name = "default"
+parameters = { k = "0" }
+initial = { M1 = "1", M2 = "1/2", M3 = "1/3", g1 = "3/5", g2 = "0", g3 = "4/5" }
+duration = "100"
+)toml";
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--orbits", "2", "--points", "2", "--json"});
+    return section_of(kDead, more);
+  };
+  const Outcome half = with({"--casimir", "F1=1/2"});
+  ASSERT_EQ(half.status, 0) << half.err;
+  EXPECT_EQ(field(half.json().at("level"), "F1"), 0.5);
+  const Outcome last = with({"--casimir", "F2=1/10"});
+  ASSERT_EQ(last.status, 0) << last.err;
+  EXPECT_EQ(field(last.json().at("level"), "F2"), 0.1);
+  EXPECT_EQ(field(last.json().at("level"), "F1"), 1);
+  const Outcome dead = with({"--casimir", "Z=3"});
+  EXPECT_EQ(dead.status, 2);
+  EXPECT_NE(dead.err.find("'Z' is a constant for the parameters of the scene"), std::string::npos)
+      << dead.err;
+  for (const char* constant : {"k*g1", "7/2"}) {
+    const Outcome flat = with({"--pair", constant, "M2"});
+    EXPECT_EQ(flat.status, 2);
+    EXPECT_NE(flat.err.find("is the same everywhere in phase space"), std::string::npos)
+        << flat.err;
+  }
+}
+
+TEST(Section, CrossingsWithoutAPlaceInThePictureAreCounted) {
+  const Outcome outcome = section_of(kHenonHeiles, {"--energy", "1/12", "--orbits", "2", "--points",
+                                                    "20", "--pair", "sqrt(y)", "py", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string warnings = outcome.json().at("warnings").dump();
+  EXPECT_NE(warnings.find("of 40 crossings the plotted functions have no value"), std::string::npos)
+      << warnings;
+}
+
 TEST(Section, SystemsWithoutASectionAreRefused) {
   const auto refused = [](const std::vector<std::string>& command, const std::string& text) {
     const Outcome outcome = run(command);

@@ -16,9 +16,6 @@ using Matrix = Eigen::MatrixXd;
 constexpr int kRoundsOfCycle = 25;
 /// Newton's method has arrived where a return is so near, relative to the size of the state.
 constexpr double kReturnsWithin = 1e-9, kSameCycle = 1e-6;
-/// Derivatives with an eigenvalue that is nearer to 1 belong to families of cycles: this is the
-/// value of its characteristic polynomial at 1, less than 2 - trace where areas are kept.
-constexpr double kDegenerate = 1e-5;
 constexpr double kAreaKept = 1e-4;
 
 /// A point on its way to a cycle.
@@ -242,7 +239,7 @@ CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
       if (!attempt.arrived || repeats(level, cycle)) continue;
       cycle.keeps_area = keeps_area;
       const double product = cycle.keeps_area ? 1 : cycle.determinant;
-      if (std::abs(1 - cycle.trace + product) < kDegenerate) {
+      if (std::abs(1 - cycle.trace + product) < kDegenerateCycle) {
         ++result.degenerate;
         continue;
       }

@@ -10,6 +10,10 @@
 
 namespace casimir {
 
+/// Cycles whose derivative has an eigenvalue that is nearer to 1 are taken for members of families:
+/// this is the value of its characteristic polynomial at 1, 2 - trace where areas are kept.
+inline constexpr double kDegenerateCycle = 1e-5;
+
 /// A cycle of the return map; one of length 1 is a fixed point.
 struct Cycle {
   std::vector<PlacedPoint> points;  ///< in the order in which they are visited

@@ -32,6 +32,7 @@ class Maker {
   SectionProblem make() {
     const auto start = std::chrono::steady_clock::now();
     require_energy_level(model_);
+    require_variables(model_.at_parameters(*model_.hamiltonian, scene_), "the Hamiltonian", "H");
     read_plane();
     read_pair();
     specialise_all();
@@ -55,9 +56,16 @@ class Maker {
     problem_.plane.upwards = request_.upwards.value_or(request_.plane || model_.section->upwards);
     plane_ = model_.at_parameters(plane.function, scene_);
     problem_.plane_function = plane_;
-    if (std::ranges::none_of(model_.variables, [&](const auto& x) { return plane_.has(x); }))
-      throw RequestError(fmt::format("the plane '{}' is the same everywhere in phase space",
-                                     printable(problem_.plane_text)));
+    require_variables(plane_, "the plane", problem_.plane_text);
+  }
+
+  /// What is constant for the values of the scene is left out of the programs, and what stands
+  /// behind it would take its place.
+  void require_variables(const GiNaC::ex& function, const char* what,
+                         const std::string& text) const {
+    if (std::ranges::none_of(model_.variables, [&](const auto& x) { return function.has(x); }))
+      throw RequestError(
+          fmt::format("{} '{}' is the same everywhere in phase space", what, printable(text)));
   }
 
   void read_pair() {
@@ -72,6 +80,7 @@ class Maker {
       throw RequestError("a section has two labels, or none");
     for (std::size_t i = 0; i < 2; ++i) {
       pair_.push_back(model_.at_parameters(pair[i].function, scene_));
+      require_variables(pair_.back(), "the plotted function", pair[i].text);
       problem_.plotted[i] = {pair[i].text,
                              request_.labels.empty() ? pair[i].text : request_.labels[i], 0};
     }
@@ -110,7 +119,8 @@ class Maker {
   std::size_t level_count() const {
     const auto& names = problem_.run.specialisation.invariant_names;
     const auto plane = std::ranges::find(names, "the plane");
-    if (plane == names.end()) throw RequestError("the plane's function is a constant");
+    if (names.end() - plane != 3)
+      throw RequestError("the plane's function, or one that is plotted, is a constant");
     return static_cast<std::size_t>(plane - names.begin());
   }
 
@@ -165,11 +175,16 @@ class Maker {
   }
 
   void set_casimir(const std::string& name, double value) {
-    const std::vector<std::string> known = names_of(model_.casimirs);
-    const auto found = std::ranges::find(known, name);
-    if (found == known.end())
-      throw RequestError(fmt::format("the case names no Casimir function '{}'", printable(name)));
-    problem_.levels[1 + static_cast<std::size_t>(found - known.begin())] = value;
+    const auto& names = problem_.level_names;
+    const auto level = std::find(names.begin() + 1, names.end(), name);  // behind H
+    if (level == names.end()) {
+      const std::vector<std::string> known = names_of(model_.casimirs);
+      if (std::ranges::find(known, name) == known.end())
+        throw RequestError(fmt::format("the case names no Casimir function '{}'", printable(name)));
+      throw RequestError(fmt::format(
+          "the Casimir function '{}' is a constant for the parameters of the scene", name));
+    }
+    problem_.levels[static_cast<std::size_t>(level - names.begin())] = value;
   }
 
   /// Rank of the bracket and of the gradients of the Casimir functions, at a point that is no

@@ -39,10 +39,10 @@ double size_of_scene(const LevelSet& level) {
   return size > 0 ? size : 1;
 }
 
-/// A point anywhere near where the scene is, in one of several sizes.
-Vector anywhere(const LevelSet& level, Chance& chance, int number) {
+/// A point of a size, or one of several near it.
+Vector anywhere(const LevelSet& level, double scale, Chance& chance, int number) {
   constexpr double kSizes[] = {0.3, 1, 3};
-  const double size = kSizes[number % 3] * size_of_scene(level);
+  const double size = kSizes[number % 3] * scale;
   Vector x(static_cast<Eigen::Index>(level.problem().states()));
   for (Eigen::Index i = 0; i < x.size(); ++i)
     x[i] = (level.problem().angles[static_cast<std::size_t>(i)] ? std::acos(-1.) : size) * chance();
@@ -84,8 +84,9 @@ std::array<double, 2> sides_of(const LevelSet& level, const std::vector<PlacedPo
 
 class Search {
  public:
-  Search(const LevelSet& level, const Returning& returning)
-      : level_(level), returning_(returning), size_(size_of_scene(level)) {}
+  /// \param size  of the points that are looked for
+  Search(const LevelSet& level, const Returning& returning, double size)
+      : level_(level), returning_(returning), size_(size) {}
 
   void add(Vector x) {
     if (!level_.project(x) || level_.speed(x) < kLeastSpeed) return;
@@ -103,7 +104,7 @@ class Search {
   }
 
   void random(int count) {
-    for (int i = 0; i < count; ++i) add(anywhere(level_, chance_, i));
+    for (int i = 0; i < count; ++i) add(anywhere(level_, size_, chance_, i));
   }
 
   /// Further points from the sparsest parts.
@@ -131,9 +132,11 @@ class Search {
 
 }  // namespace
 
-std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning& returning,
-                                          const std::vector<Vector>& known) {
-  Search search(level, returning);
+namespace {
+
+std::vector<PlacedPoint> points_of_size(const LevelSet& level, const Returning& returning,
+                                        double size, const std::vector<Vector>& known) {
+  Search search(level, returning, size);
   for (const Vector& x : known) search.add(x);
   search.random(kRandomPointsOfLevel);
   search.sift();
@@ -142,6 +145,42 @@ std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning
     search.sift();
   }
   return search.points();
+}
+
+/// Powers of ten times the size of the scene, the nearest first, from which points come to the
+/// level without leaving that size: a level of another energy may lie far from the scene.
+std::vector<double> other_sizes(const LevelSet& level) {
+  constexpr int kDecades = 20, kTrials = 30, kEnough = 3;
+  Chance chance;
+  std::vector<double> sizes;
+  for (int k = 1; k <= 2 * kDecades; ++k) {
+    const double size = size_of_scene(level) * std::pow(10., k % 2 == 1 ? (k + 1) / 2 : -k / 2);
+    int there = 0;
+    for (int i = 0; i < kTrials; ++i) {
+      Vector x = anywhere(level, size, chance, i);
+      if (!level.project(x)) continue;
+      const double largest = x.lpNorm<Eigen::Infinity>();
+      there += largest > size / kFarAway && largest < size * kFarAway ? 1 : 0;
+    }
+    if (there >= kEnough) sizes.push_back(size);
+  }
+  return sizes;
+}
+
+}  // namespace
+
+std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning& returning,
+                                          const std::vector<Vector>& known) {
+  std::vector<PlacedPoint> points = points_of_size(level, returning, size_of_scene(level), known);
+  constexpr std::size_t kMostSizes = 4;
+  std::size_t tried = 0;
+  if (points.empty()) {
+    for (const double size : other_sizes(level)) {
+      points = points_of_size(level, returning, size, {});
+      if (!points.empty() || ++tried == kMostSizes) break;
+    }
+  }
+  return points;
 }
 
 namespace {
@@ -225,7 +264,7 @@ std::string energies_there(const LevelSet& level) {
   Chance chance;
   double least = std::numeric_limits<double>::infinity(), largest = -least;
   for (int i = 0; i < 300; ++i) {
-    Vector x = anywhere(level, chance, i);
+    Vector x = anywhere(level, size_of_scene(level), chance, i);
     if (!level.project(x, nullptr, false)) continue;
     largest = std::max(largest, level.energy(x));
     // Downhill along the level, as far as it goes.
