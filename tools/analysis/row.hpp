@@ -26,7 +26,7 @@ struct Row {
   std::string code = "specialised";  ///< or "general": parameters at run time, nothing left out
   double tolerance = 0;
   double error = std::numeric_limits<double>::quiet_NaN();  ///< not a number: there is no reference
-  double drift = 0;
+  double drift = 0;                                         ///< not a number: there is no invariant
   double seconds = 0;
   double spread = 0;  ///< half the distance of the quartiles of repeated runs
   int rounds = 1;     ///< in which the time was taken; 0: it is that of a run that did not arrive

@@ -159,15 +159,7 @@ int conserve(const ConserveArguments& options) {
     const bool with_error = std::any_of(rows.begin(), rows.end(),
                                         [](const Row& row) { return !std::isnan(row.error); });
     std::cout << to_text(rows, with_error);
-    const auto refused =
-        std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.refused; });
-    fmt::print(
-        "{} of {} runs keep every invariant to {:g}{}\n",
-        static_cast<std::ptrdiff_t>(rows.size()) - failed - refused, rows.size(), options.bound,
-        refused == 0 ? ""
-                     : fmt::format("; {} are refused: an extreme scene, or one that the method "
-                                   "is not made for",
-                                   refused));
+    fmt::print("{}\n", conservation_sentence(rows, options.bound));
   }
   // The rows first: pictures need a program that may be missing.
   if (!options.plot.empty())

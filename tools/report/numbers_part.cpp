@@ -10,6 +10,7 @@
 #include "tools/bench/report_html.hpp"
 #include "tools/report/page.hpp"
 #include "tools/text/files/generated_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 #include "tools/typeset/html.hpp"
 
 namespace casimir::tools {
@@ -44,6 +45,10 @@ std::string left_out(const Specialisation& code) {
 
 std::string status_of(const Row& row) {
   return row.reason.empty() ? status_text(row) : status_text(row) + ": " + row.reason;
+}
+
+std::string size_or_dash(double value) {
+  return std::isnan(value) ? "&ndash;" : fmt::format("{:.1e}", value);
 }
 
 }  // namespace
@@ -99,14 +104,7 @@ std::string motion_part(const Findings& findings, const Pictures& pictures) {
 std::string drift_part(const Findings& findings, const Pictures& pictures) {
   if (findings.runs.empty()) return "";
   std::string text = "<section id=\"drift\">\n<h2>How well the invariants are kept</h2>\n";
-  std::size_t kept = 0, refused = 0;
-  for (const Row& row : findings.runs) {
-    kept += !row.failed && !row.refused ? 1 : 0;
-    refused += row.refused ? 1 : 0;
-  }
-  text += html::paragraph(fmt::format(
-      "{} of {} runs keep every invariant to {:g} of its size{}.", kept, findings.runs.size(),
-      findings.drift_bound, refused == 0 ? "" : fmt::format("; {} are refused", refused)));
+  text += html::paragraph(conservation_sentence(findings.runs, findings.drift_bound) + ".");
   text += missing_picture(pictures);
   text += figure(
       pictures.drift, "drift",
@@ -114,13 +112,13 @@ std::string drift_part(const Findings& findings, const Pictures& pictures) {
   std::string rows =
       html::row({"scene", "method", "drift", "error", "time", "steps", "status"}, "th");
   for (const Row& r : findings.runs) {
-    rows += html::row({html::text(r.scene), html::text(r.method), fmt::format("{:.1e}", r.drift),
-                       std::isnan(r.error) ? "&ndash;" : fmt::format("{:.1e}", r.error),
-                       duration_text(r.seconds), std::to_string(r.steps), html::text(status_of(r))},
-                      "td",
-                      r.failed    ? "wrong"
-                      : r.refused ? "other"
-                                  : "");
+    rows += html::row(
+        {html::text(r.scene), html::text(r.method), size_or_dash(r.drift), size_or_dash(r.error),
+         duration_text(r.seconds), std::to_string(r.steps), html::text(status_of(r))},
+        "td",
+        r.failed    ? "wrong"
+        : r.refused ? "other"
+                    : "");
   }
   return text + "<div class=\"words2\">" + html::table(rows) + "</div></section>\n";
 }

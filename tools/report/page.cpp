@@ -62,9 +62,13 @@ std::string head_part(const Model& model, const Findings& findings) {
       fmt::format("{}, {}, {} variables", model.name, model.phase_space, model.variables.size()));
   if (!model.source.empty()) text += "; " + html::text(model.source);
   const std::string where = where_text(conditions_of(model, findings.proofs));
-  text += "</p>\n<p><span class=\"badge " + to_string(findings.verdict) + "\">" +
-          verdict_mark(findings.verdict) + "</span>" + html::text(where, 4000) +
-          (where.empty() ? " " : "; ") + html::text(tally_of(model, findings.proofs).text()) +
+  text += "</p>\n<p>";
+  const Tally tally = tally_of(model, findings.proofs);
+  if (tally.all() > 0)
+    text += "<span class=\"badge " + to_string(findings.verdict) + "\">" +
+            verdict_mark(findings.verdict) + "</span>" + html::text(where, 4000) +
+            (where.empty() ? " " : "; ");
+  text += html::text(tally.text()) +
           (model.integrable ? "; the case claims Liouville integrability" : "") + "</p>\n";
   return text + "</header>\n";
 }

@@ -278,7 +278,8 @@ int integrate_ensemble(const EnsembleRequest& request) {
   } catch (const std::invalid_argument& problem) {
     throw UsageError(problem.what());
   }
-  const std::vector<CheckedMember> checked = check_members(run, method, settings, ensemble, result);
+  const std::vector<CheckedMember> checked =
+      check_members(run, method, settings, ensemble, result, members_to_check(ends_of(result)));
   std::vector<std::string> warnings =
       warnings_on(kernel, run, settings, checked, unwatched_parts(model, scene));
   for (std::string& sentence :

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "tools/analysis/run/changing_invariant.hpp"
 #include "tools/analysis/run/doubted_invariants.hpp"
@@ -146,6 +147,7 @@ Row conserve_map(const MapModel& map, const Scene& scene, const std::optional<do
       row.reason = std::move(*name);
     }
   }
+  if (run.invariants.empty()) row.drift = std::numeric_limits<double>::quiet_NaN();
   return row;
 }
 

@@ -425,12 +425,19 @@ TEST(ErrorEstimate, TheRoundingOfAParameterIsMeasuredByTheNextDoubles) {
 
 TEST(ErrorEstimate, TheMemberWithMostStepsIsChecked) {
   const auto checked = [](unsigned long long steps_of_third) {
-    return members_to_check(
-        8, [](std::size_t) { return true; },
-        [&](std::size_t i) { return i == 2 ? steps_of_third : 10ULL; });
+    std::vector<MemberEnd> ends(8, {.arrived = true, .steps = 10, .size = 1});
+    ends[2].steps = steps_of_third;
+    return members_to_check(ends);
   };
   EXPECT_EQ(checked(10), (std::vector<std::size_t>{0, 4, 7}));
   EXPECT_EQ(checked(100), (std::vector<std::size_t>{0, 2, 4, 7}));
+}
+
+TEST(ErrorEstimate, MembersThatEndFarBeyondTheOthersAreChecked) {
+  std::vector<MemberEnd> ends(100, {.arrived = true, .steps = 10, .size = 2});
+  ends[20].size = ends[30].size = 1e9;
+  ends[40] = {.arrived = false, .steps = 10, .size = 1e9};
+  EXPECT_EQ(members_to_check(ends), (std::vector<std::size_t>{0, 20, 30, 62, 99}));
 }
 
 /// What takes longest is what most needs a check: that there was no time for one is said.
@@ -447,7 +454,7 @@ TEST(ErrorEstimate, MembersWithoutTimeForACheckAreUnconfirmed) {
   Settings settings;
   settings.duration = 100;
   const auto checked = [&](double budget) {
-    return check_members(run, *find_method("taylor"), settings, ensemble, result, budget);
+    return check_members(run, *find_method("taylor"), settings, ensemble, result, {0, 1}, budget);
   };
   ASSERT_EQ(checked(10).size(), 2U);
   EXPECT_FALSE(checked(10)[0].trust.unconfirmed);

@@ -49,6 +49,18 @@ std::string on_terminal(const std::vector<std::string>& arguments, unsigned shor
   return text;
 }
 
+const char* const kNothingClaimed = R"toml(
+[phase_space]
+variables = ["x", "y"]
+[equations]
+x = "y"
+y = "-x + y*(1 - x^2)"
+[[scene]]
+name = "default"
+initial = { x = "1", y = "0" }
+duration = "5"
+)toml";
+
 TEST(VerifyTable, ColumnsStandBelowTheirHeadings) {
   const auto lines = lines_of(run({"verify", "kovalevskaya"}).out);
   std::string heading;
@@ -202,6 +214,13 @@ TEST(VerifyTable, EachKindOfClaimsHasItsWords) {
     const bool list = row.clear && row.kind != ClaimKind::lax && row.kind != ClaimKind::map;
     if (list) EXPECT_NE(words.heading, nullptr) << to_string(row.kind);
   }
+}
+
+TEST(VerifyTable, OfACaseWithoutClaimsSaysSo) {
+  const Outcome outcome = run({"verify", "-"}, kNothingClaimed);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\nnothing is claimed; "), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("proved"), std::string::npos) << outcome.out;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "tools/analysis/error.hpp"
@@ -68,6 +69,7 @@ void judge_conservation(Row& row, const Trajectory& trajectory, const Scene& sce
     row.end = RowEnd::drifted;
     row.bound = bound;
   }
+  if (trajectory.invariants.empty()) row.drift = std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The first and the last state, with the variables that are not integrated at their first values.

@@ -49,32 +49,46 @@ CompiledModule module_of(const PreparedScene& own, const Method& method) {
 
 }  // namespace
 
-std::vector<std::size_t> members_to_check(
-    std::size_t members, const std::function<bool(std::size_t)>& ended,
-    const std::function<unsigned long long(std::size_t)>& steps) {
+std::vector<MemberEnd> ends_of(const EnsembleResult& result) {
+  std::vector<MemberEnd> ends;
+  for (const MemberResult& member : result.members) {
+    double size = 0;
+    for (const double x : member.state) size = std::max(size, std::abs(x));
+    ends.push_back({member.status == Status::ok, member.steps, size});
+  }
+  return ends;
+}
+
+std::vector<std::size_t> members_to_check(const std::vector<MemberEnd>& ends) {
   constexpr double kGoldenSection = 0.6180339887498949;
   std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < members; ++i)
-    if (ended(i)) all.push_back(i);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if (ends[i].arrived) all.push_back(i);
   if (all.empty()) return {};
   const double between = kGoldenSection * static_cast<double>(all.size());
   std::set<std::size_t> some{all.front(), all[static_cast<std::size_t>(between)], all.back()};
   constexpr unsigned long long kByFar = 4;
+  const auto steps = [&](std::size_t i) { return ends[i].steps; };
   const std::size_t longest = *std::ranges::max_element(all, {}, steps);
   const std::size_t among = *std::ranges::min_element(some, {}, steps);
   if (steps(longest) > kByFar * steps(among)) some.insert(longest);
+  constexpr double kFarBeyond = 1e5;
+  constexpr std::size_t kMostBeyond = 12;
+  std::ranges::sort(all, [&](std::size_t a, std::size_t b) { return ends[a].size > ends[b].size; });
+  const double usual = ends[all[all.size() / 2]].size;
+  for (std::size_t k = 0; k < std::min(all.size(), kMostBeyond); ++k)
+    if (ends[all[k]].size > kFarBeyond * usual) some.insert(all[k]);
   return {some.begin(), some.end()};
 }
 
 std::vector<CheckedMember> check_members(const PreparedScene& run, const Method& method,
                                          const Settings& settings, const Ensemble& ensemble,
-                                         const EnsembleResult& result, double budget) {
+                                         const EnsembleResult& result,
+                                         const std::vector<std::size_t>& which, double budget) {
   constexpr double kPart = 0.1;
   std::vector<CheckedMember> checked;
   bool too_slow = false;  // one was: the others take as long
-  const auto ended = [&](std::size_t i) { return result.members[i].status == Status::ok; };
-  const auto steps = [&](std::size_t i) { return result.members[i].steps; };
-  for (const std::size_t member : members_to_check(result.members.size(), ended, steps)) {
+  for (const std::size_t member : which) {
     CheckedMember& found = checked.emplace_back(CheckedMember{member, {}});
     if (too_slow) {
       found.trust.known = found.trust.unconfirmed = true;

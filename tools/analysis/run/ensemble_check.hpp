@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "runtime/ensemble.hpp"
@@ -14,13 +13,19 @@ struct CheckedMember {
   ErrorEstimate trust;  ///< of the end state that it has in the ensemble
 };
 
+/// How a member ended, as far as that tells whether it is to be checked.
+struct MemberEnd {
+  bool arrived = true;
+  unsigned long long steps = 0;
+  double size = 0;  ///< the largest number in its end state, without its sign
+};
+
+std::vector<MemberEnd> ends_of(const EnsembleResult& result);
+
 /// The members that are checked: the first, the last and one between them of those that reached the
-/// end, in their order, and the one that took most steps by far: something was in its way.
-/// \param ended  whether a member of this number reached it
-/// \param steps  how many it took
-std::vector<std::size_t> members_to_check(
-    std::size_t members, const std::function<bool(std::size_t)>& ended,
-    const std::function<unsigned long long(std::size_t)>& steps);
+/// end, in their order, the one that took most steps by far, since something was in its way, and
+/// some of those that ended far beyond the others, perhaps at a pole.
+std::vector<std::size_t> members_to_check(const std::vector<MemberEnd>& ends);
 
 /// What a scene is checked for, of members: their equations have a meaning off the constraints,
 /// too, but what is proved of the case does not hold there.
@@ -30,13 +35,15 @@ std::string require_members(const Model& model, const Scene& scene, const Specia
                             const Ensemble& ensemble);
 
 /// Integrates some members again by themselves, each for no more than about `budget` seconds, with
-/// an estimate of their errors: `members_to_check`. One that does not reach the end in that time is
-/// unconfirmed, and so are those after it. Members have no estimate of their own, and what
+/// an estimate of their errors. One that does not reach the end in that time is unconfirmed, and so
+/// are those after it. Members have no estimate of their own, and what
 /// rounding or a step does to one of them it mostly does to its neighbours as well.
-/// \param run  what the members are, but for their initial states and parameters.
+/// \param run    what the members are, but for their initial states and parameters.
+/// \param which  of the members, as of `members_to_check`
 std::vector<CheckedMember> check_members(const PreparedScene& run, const Method& method,
                                          const Settings& settings, const Ensemble& ensemble,
-                                         const EnsembleResult& result, double budget = 2);
+                                         const EnsembleResult& result,
+                                         const std::vector<std::size_t>& which, double budget = 2);
 
 /// Whether members may pass over what lies between the ends of a step: a constant step is not
 /// looked into, and the equations have functions that hide something from one. Of members nobody

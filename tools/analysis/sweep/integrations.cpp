@@ -47,12 +47,19 @@ Ensemble Integrations::members(const std::vector<std::size_t>& points) const {
 
 std::vector<CheckedMember> Integrations::check(const std::vector<PointResult>& rows) const {
   const std::size_t states = run_.specialisation.states.size();
-  const std::vector<std::size_t> points = members_to_check(
-      rows.size(), [&](std::size_t i) { return rows[i].status == Status::ok; },
-      [&](std::size_t i) { return static_cast<unsigned long long>(rows[i].values.back()); });
+  std::vector<MemberEnd> ends;
+  for (const PointResult& row : rows) {
+    double size = 0;
+    for (std::size_t i = 1; i <= states; ++i) size = std::max(size, std::abs(row.values[i]));
+    ends.push_back(
+        {row.status == Status::ok, static_cast<unsigned long long>(row.values.back()), size});
+  }
+  const std::vector<std::size_t> points = members_to_check(ends);
   EnsembleResult result;
+  std::vector<std::size_t> which;
   for (const std::size_t point : points) {
     const auto state = rows[point].values.begin() + 1;  // behind the time
+    which.push_back(which.size());
     MemberResult& member = result.members.emplace_back();
     member.status = Status::ok;
     member.time = rows[point].values.front();
@@ -60,7 +67,7 @@ std::vector<CheckedMember> Integrations::check(const std::vector<PointResult>& r
     member.state.assign(state, state + static_cast<std::ptrdiff_t>(states));
   }
   std::vector<CheckedMember> checked =
-      check_members(run_, method_, settings_, members(points), result);
+      check_members(run_, method_, settings_, members(points), result, which);
   for (CheckedMember& member : checked) member.member = points[member.member];
   return checked;
 }

@@ -588,7 +588,7 @@ class Section(Sequence[Orbit]):
     labels: tuple[str, str]  #: of the axes
     names: list[str] = field(default_factory=list)  #: of the entries of a state
     cycles: list[Cycle] = field(default_factory=list)  #: periodic orbits, where they were asked for
-    degenerate_cycles: int = 0  #: how many more belong to families, as in integrable systems
+    degenerate_cycles: int = 0  #: how many more have the trace 2, as those of families have, in integrable systems
     certified: int = 0  #: how many are in the certificate
 
     def __getitem__(self, index):

@@ -48,6 +48,7 @@ void Tally::add(Verdict verdict) {
 }
 
 std::string Tally::text() const {
+  if (all() == 0) return "nothing is claimed";
   return fmt::format("{} proved, {} refuted, {} undecided", proved, refuted, undecided);
 }
 

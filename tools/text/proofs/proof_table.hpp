@@ -16,7 +16,7 @@ struct Tally {
 
   void add(Verdict verdict);
   std::size_t all() const { return proved + refuted + undecided; }
-  /// "7 proved, 0 refuted, 1 undecided".
+  /// "7 proved, 0 refuted, 1 undecided", or that nothing is claimed.
   std::string text() const;
 };
 

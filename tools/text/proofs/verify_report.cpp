@@ -53,9 +53,12 @@ void CaseReport::end(const std::vector<Proof>& proofs, double seconds) const {
   const Tally claims = tally_of(model_, proofs);
   const auto beside = std::ranges::count_if(
       proofs, [&](const Proof& proof) { return proof.fact && !counts(model_, proof); });
-  fmt::print("\n{}{}  {}: {}", verdict_text(overall(model_, proofs), colour(), kVerdictWidth),
-             where_text(conditions_of(model_, proofs)), plural(claims.all(), "claim"),
-             claims.text());
+  if (claims.all() == 0)
+    fmt::print("\n{}", claims.text());
+  else
+    fmt::print("\n{}{}  {}: {}", verdict_text(overall(model_, proofs), colour(), kVerdictWidth),
+               where_text(conditions_of(model_, proofs)), plural(claims.all(), "claim"),
+               claims.text());
   if (beside > 0) fmt::print(" (and {} beside)", plural(static_cast<std::size_t>(beside), "fact"));
   fmt::print("; {}\n", duration_text(seconds));
   std::fflush(stdout);

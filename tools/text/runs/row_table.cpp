@@ -22,7 +22,7 @@ Table table_of(const std::vector<Row>& rows) {
            {"code", column([](const Row& row) { return row.code; })},
            {"tolerance", column([](const Row& row) { return row.tolerance; }), {}, "{:g}"},
            {"error", column([&](const Row& row) { return present(row.error); })},
-           {"drift", column([](const Row& row) { return row.drift; })},
+           {"drift", column([&](const Row& row) { return present(row.drift); })},
            {"seconds", column([](const Row& row) { return row.seconds; }), {}, "{:.6g}"},
            {"spread", column([](const Row& row) { return row.spread; }), {}, "{:.3g}"},
            {"rounds", column([&](const Row& row) { return whole(row.rounds); })},

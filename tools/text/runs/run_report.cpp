@@ -102,6 +102,32 @@ std::string to_text(const std::vector<Row>& rows, bool with_error) {
   return text;
 }
 
+std::string conservation_sentence(const std::vector<Row>& rows, double bound) {
+  const auto count = [&](const auto& which) {
+    return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), which));
+  };
+  const auto keeps = [](const Row& row) {
+    return !row.failed && !row.refused && !std::isnan(row.drift);
+  };
+  const std::size_t refused = count([](const Row& row) { return row.refused; });
+  const std::size_t missing =
+      count([](const Row& row) { return !row.refused && row.status != Status::ok; });
+  const std::size_t unwatched =
+      count([](const Row& row) { return !row.failed && !row.refused && std::isnan(row.drift); });
+  std::string text = unwatched == rows.size()
+                         ? fmt::format("{} run{} arrived, and there is no invariant to look at",
+                                       rows.size(), rows.size() == 1 ? "" : "s")
+                         : fmt::format("{} of {} runs keep every invariant to {:g}", count(keeps),
+                                       rows.size(), bound);
+  if (unwatched > 0 && unwatched < rows.size())
+    text += fmt::format("; {} {} none", unwatched, unwatched == 1 ? "has" : "have");
+  if (missing > 0) text += fmt::format("; {} did not arrive", missing);
+  if (refused > 0)
+    text += fmt::format("; {} {} refused: an extreme scene, or one that the method is not made for",
+                        refused, refused == 1 ? "is" : "are");
+  return text;
+}
+
 std::string advice(Status status) {
   switch (status) {
     case Status::non_finite:

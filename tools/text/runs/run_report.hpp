@@ -20,6 +20,10 @@ nlohmann::ordered_json to_json(const std::vector<Row>& rows);
 /// A table for people. Case and scene stand in lines of their own.
 std::string to_text(const std::vector<Row>& rows, bool with_error);
 
+/// "2 of 3 runs keep every invariant to 1e-09; 1 did not arrive".
+/// \param bound  of the drift, beside the size of an invariant
+std::string conservation_sentence(const std::vector<Row>& rows, double bound);
+
 /// What a user may do about a run that stopped early; empty where there is nothing.
 std::string advice(Status status);
 
