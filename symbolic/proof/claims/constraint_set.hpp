@@ -49,7 +49,8 @@ class ConstraintSet {
   /// `needed_parameters`: u^2 - a^2 is a - a^2 where u^2 = a. Those that are found: of polynomials.
   /// A polynomial in parameters alone that is zero wherever the constraints are and a minor, or
   /// where the set is not smooth, gives the values at which these may be so all over it: u is zero
-  /// all over u^2 = a, and over u^2 + v^2 = a, at a = 0. Its factors are conditions.
+  /// all over u^2 = a, and over u^2 + v^2 = a, at a = 0. Its factors are conditions, some
+  /// perhaps needless ones.
   /// \param point  of the set
   std::vector<std::string> needed_parameters_of(RealPoint& point, const RankedRows& one) const;
 

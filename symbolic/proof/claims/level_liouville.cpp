@@ -51,7 +51,8 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
     return;
   }
   if (!is_poisson(prover)) {
-    proof.reason = "the Jacobi identity is not proved where all functions of this have values";
+    proof.reason =
+        "the Jacobi identity is not proved at points where all functions of the claim have values";
     return;
   }
   const Level level = prover.level(all);

@@ -187,7 +187,8 @@ void decide_liouville(Prover& prover, Proof& proof) {
   proof.reason = why_not_counted(leaf, functions.size());
   if (!proof.reason.empty()) proof.reason += left_out;
   if (proof.reason.empty() && !is_poisson(prover))
-    proof.reason = "the Jacobi identity is not proved where all functions of this have values";
+    proof.reason =
+        "the Jacobi identity is not proved at points where all functions of the claim have values";
   if (!proof.reason.empty()) return;
   const std::size_t needed = leaf->rank / 2;
   PolynomialRows flows;

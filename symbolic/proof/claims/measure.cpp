@@ -122,7 +122,7 @@ bool keeps_constraints(Prover& prover, bool every) {
 }
 
 /// What is not zero around the phase space may be zero all over it.
-void require_on_constraints(Prover& prover, Proof& proof, const GiNaC::ex& density) {
+void require_nonzero_on_constraints(Prover& prover, Proof& proof, const GiNaC::ex& density) {
   if (prover.model().constraints.empty() || GiNaC::is_a<GiNaC::numeric>(density)) return;
   const Polynomial rho = prover.convert(density), top = prover.ring().numerator(rho);
   if (prover.ring().is_nowhere_zero(top) || prover.is_nowhere_zero_on_constraints(top)) return;
@@ -163,9 +163,9 @@ void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density
 void judge_density(Prover& prover, Proof& proof, const GiNaC::ex& density) {
   // x (1 + y^2) = 0 is the line x = 0 as well, on which dx dy leaves dy/(1 + y^2) then.
   constexpr const char* kOnThem =
-      "on the constraints c, as they are written, it is density*dx/dc that is kept";
+      "on the constraints c, as they are written, the measure is density*dx/dc";
   if (proof.verdict == Verdict::refuted && !prover.model().constraints.empty())
-    proof.reason += fmt::format("; {}, if anything", kOnThem);
+    proof.reason += fmt::format("; {}", kOnThem);
   if (proof.verdict != Verdict::proved) return;
   bool both_signs = false;
   proof.reason = doubt_about(prover, density, &both_signs, &proof.where);
@@ -177,7 +177,7 @@ void judge_density(Prover& prover, Proof& proof, const GiNaC::ex& density) {
     proof.evidence = "the density has both signs: it is a measure only on parts of the domain";
   if (!prover.model().constraints.empty())
     proof.evidence += fmt::format("{}{}", proof.evidence.empty() ? "" : "; ", kOnThem);
-  require_on_constraints(prover, proof, density);
+  require_nonzero_on_constraints(prover, proof, density);
 }
 
 std::vector<Claim> measure_claims(const Model& model) {
