@@ -21,7 +21,8 @@ using Returning = std::function<std::vector<bool>(const std::vector<PlacedPoint>
 ///
 /// Random points are moved to the level set; from those that lie in the sparsest parts of the
 /// picture so far, others are sought in random directions along the level set. The same in every
-/// run.
+/// run. They are of the scene's size; where orbits return from none of these, of other powers of
+/// ten: a level of another energy may lie far away.
 /// \param known  points of the level set, or near it, to begin with.
 std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning& returning,
                                           const std::vector<LevelSet::Vector>& known);
