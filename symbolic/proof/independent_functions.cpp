@@ -1,6 +1,7 @@
 #include "symbolic/proof/independent_functions.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -38,40 +39,51 @@ std::map<std::vector<int>, Values> values_on_pieces(Prover& prover,
   return pieces;
 }
 
+/// One row for each polynomial, a column for each of the monomials that are wanted.
+RationalMatrix coefficients(const std::vector<Polynomial>& polynomials,
+                            const std::function<bool(const std::vector<unsigned long>&)>& wanted) {
+  std::map<std::vector<unsigned long>, std::size_t> columns;
+  for (const Polynomial& p : polynomials)
+    for (const auto& [number, powers] : p.term_list())
+      if (wanted(powers)) columns.try_emplace(powers, columns.size());
+  RationalMatrix rows(polynomials.size(), std::vector<cln::cl_RA>(columns.size()));
+  for (std::size_t i = 0; i < polynomials.size(); ++i)
+    for (const auto& [number, powers] : polynomials[i].term_list())
+      if (wanted(powers)) rows[i][columns.at(powers)] = number;
+  return rows;
+}
+
 /// Whether all generators in them are exponentials of polynomials that are independent over the
 /// rational numbers up to constants: such are algebraically independent over the rational
-/// functions, so that different monomials of them and of variables are independent.
-bool are_free_exponentials(const FunctionRing& ring, const std::vector<Polynomial>& functions) {
+/// functions.
+bool are_of_free_exponentials(const FunctionRing& ring, const std::vector<Polynomial>& functions) {
+  const std::size_t own = ring.symbols().size();
   std::vector<Polynomial> exponents;
-  for (std::size_t g = ring.symbols().size(); g < ring.end_of_generators(); ++g) {
+  for (std::size_t g = own; g < ring.end_of_generators(); ++g) {
     if (std::none_of(functions.begin(), functions.end(),
                      [&](const Polynomial& f) { return f.uses(g); }))
       continue;
     const FunctionRing::Origin origin = ring.origin(g);
     if (origin.kind != FunctionRing::Origin::Kind::exponential) return false;
+    for (std::size_t k = own; k < ring.end_of_generators(); ++k)
+      if (origin.argument.uses(k)) return false;  // no polynomial
     exponents.push_back(origin.argument);
   }
-  std::map<std::vector<unsigned long>, std::size_t> columns;
-  for (const Polynomial& p : exponents)
-    for (const auto& [number, powers] : p.term_list())
-      if (std::any_of(powers.begin(), powers.end(), [](unsigned long k) { return k > 0; }))
-        columns.try_emplace(powers, columns.size());
-  RationalMatrix rows(exponents.size(), std::vector<cln::cl_RA>(columns.size()));
-  for (std::size_t i = 0; i < exponents.size(); ++i)
-    for (const auto& [number, powers] : exponents[i].term_list()) {
-      for (std::size_t k = ring.symbols().size(); k < powers.size(); ++k)
-        if (powers[k] > 0) return false;  // no polynomial
-      if (const auto column = columns.find(powers); column != columns.end())
-        rows[i][column->second] = number;
-    }
-  return exponents.empty() || rank(rows) == exponents.size();
+  const auto varies = [](const std::vector<unsigned long>& powers) {
+    return std::any_of(powers.begin(), powers.end(), [](unsigned long k) { return k > 0; });
+  };
+  return exponents.empty() || rank(coefficients(exponents, varies)) == exponents.size();
 }
 
 }  // namespace
 
 bool independent_on_pieces(Prover& prover, const std::vector<Polynomial>& functions) {
-  if (are_free_exponentials(prover.ring(), functions)) return true;
-  if (functions.empty() || functions.size() > kMostFunctions) return false;
+  if (functions.empty()) return false;
+  if (are_of_free_exponentials(prover.ring(), functions)) {
+    const auto all = [](const std::vector<unsigned long>&) { return true; };
+    return rank(coefficients(functions, all)) == functions.size();
+  }
+  if (functions.size() > kMostFunctions) return false;
   const FunctionRing::Pieces what = prover.ring().pieces(functions);
   if (!what.rigid || thin_domain(prover)) return false;
   try {

@@ -20,6 +20,7 @@ struct MemberEnd {
   double size = 0;  ///< the largest number in its end state, without its sign
 };
 
+/// How each member ended, in the order of the ensemble.
 std::vector<MemberEnd> ends_of(const EnsembleResult& result);
 
 /// The members that are checked: the first, the last and one between them of those that reached the
