@@ -1,5 +1,7 @@
 #include "symbolic/proof/parameter_minors.hpp"
 
+#include <algorithm>
+
 #include <cln/integer.h>
 #include <cln/rational.h>
 
@@ -48,6 +50,19 @@ std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>>
     previous = m[k][k];
   }
   return m.empty() ? ring.constant(1) : m.back().back();
+}
+
+std::vector<std::vector<std::size_t>> with_one_changed(const std::vector<std::size_t>& indices,
+                                                       std::size_t end) {
+  std::vector<std::vector<std::size_t>> result{indices};
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    for (std::size_t other = 0; other < end; ++other) {
+      if (std::find(indices.begin(), indices.end(), other) != indices.end()) continue;
+      result.push_back(indices);
+      result.back()[k] = other;
+    }
+  }
+  return result;
 }
 
 MinorModulo::MinorModulo(const Polynomial& p) {

@@ -17,6 +17,11 @@ std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>>
                                             const PolynomialRing& ring,
                                             std::size_t most_terms = 40);
 
+/// The indices, and these with one of them changed to another below `end`: rows or columns of
+/// minors.
+std::vector<std::vector<std::size_t>> with_one_changed(const std::vector<std::size_t>& indices,
+                                                       std::size_t end);
+
 /// A polynomial modulo a prime, for many evaluations: what is not zero there is not zero.
 class MinorModulo {
  public:

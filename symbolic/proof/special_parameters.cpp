@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -16,8 +15,7 @@
 #include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/expression/expression_size.hpp"
-#include "symbolic/proof/generic_rank.hpp"
-#include "symbolic/proof/independent_functions.hpp"
+#include "symbolic/proof/lasting_minor.hpp"
 #include "symbolic/proof/parameter_minors.hpp"
 #include "symbolic/proof/parameter_sets.hpp"
 
@@ -37,19 +35,6 @@ std::vector<bool> used_variables(const PolynomialRows& rows) {
     }
   }
   return used;
-}
-
-/// The indices, and these with one of them changed to another below `end`.
-std::vector<Indices> with_one_changed(const Indices& indices, std::size_t end) {
-  std::vector<Indices> result{indices};
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    for (std::size_t other = 0; other < end; ++other) {
-      if (std::find(indices.begin(), indices.end(), other) != indices.end()) continue;
-      result.push_back(indices);
-      result.back()[k] = other;
-    }
-  }
-  return result;
 }
 
 class SpecialParameters {
@@ -91,7 +76,13 @@ class SpecialParameters {
     find_minors();
     for (const Polynomial& f : common_factors()) look_at_factor(f, Zeros::all_minors);
     const bool doubtful = with_relations_ || (with_functions_ && !nothing_divided_);
-    const bool open = doubtful && !has_lasting_minor();
+    const bool open =
+        doubtful &&
+        !has_lasting_minor(prover_, rows_, rank_,
+                           {.is_parameter = [&](auto place) { return is_parameter(place); },
+                            .depends = [&](const auto& p) { return depends_on_parameters(p); },
+                            .is_excluded = [&](const auto& f) { return was_looked_at(f); },
+                            .in_functions = with_functions_});
     if (minors_.empty() || !ring_.is_polynomial()) {
       for (const std::size_t p : places_) look_at_factor(ring().variable(p), Zeros::candidates);
     }
@@ -129,10 +120,6 @@ class SpecialParameters {
   Polynomial at_numbers(const Polynomial& p, const std::vector<cln::cl_RA>& numbers) const;
   std::pair<Indices, Indices> regular_minor(const std::vector<cln::cl_RA>& point) const;
   void find_minors();
-  bool has_lasting_minor();
-  bool lasts(const Polynomial& minor);
-  PolynomialRows minor_of(const Indices& rows, const Indices& columns) const;
-  bool is_never_identically_zero(const Polynomial& f);
   bool was_looked_at(const Polynomial& f) const;
   void say_that_others_are_open();
   std::vector<Polynomial> common_factors() const;
@@ -346,95 +333,6 @@ void SpecialParameters::look_at_factor(const Polynomial& factor, Zeros zeros) {
   if (!needed) return;
   excluded_.push_back(f);
   add(ring_.text(f) + " != 0");
-}
-
-/// Whether some minor is not zero at almost all points, for all parameters at which none of the
-/// factors vanishes that were looked at: each of its factors is one of these, or vanishes nowhere,
-/// or has no parameters and so is the same function for all of them.
-bool SpecialParameters::has_lasting_minor() {
-  constexpr std::size_t kMost = 12, kMostTerms = 400;
-  std::size_t tried = 0;
-  try {
-    auto point = prover_.real_points().random(prover_.domain());
-    if (!point) return false;
-    const auto [own_rows, own_columns] = casimir::regular_minor(*point, rows_, rank_);
-    if (own_rows.size() < rank_ || own_columns.size() < rank_) return false;
-    for (const Indices& rows : with_one_changed(own_rows, rows_.size())) {
-      for (const Indices& columns : with_one_changed(own_columns, rows_[0].size())) {
-        if (tried++ == kMost) return false;
-        const auto value = short_determinant(minor_of(rows, columns), ring(), kMostTerms);
-        if (value && lasts(*value) && !point->value(*value).contains_zero()) return true;
-      }
-    }
-  } catch (const NotCertified&) {
-  }
-  return false;
-}
-
-bool SpecialParameters::lasts(const Polynomial& minor) {
-  const auto has_no_zeros = [&](const Polynomial& product) {
-    const auto factors = product.factors();
-    return !product.is_zero() &&
-           std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
-             const Polynomial& f = factor.first;
-             return f.is_constant() || !depends_on_parameters(f) || ring_.is_nowhere_zero(f) ||
-                    was_looked_at(f) || is_never_identically_zero(f);
-           });
-  };
-  return has_no_zeros(ring_.lowest_terms(minor).first) || has_no_zeros(minor);
-}
-
-PolynomialRows SpecialParameters::minor_of(const Indices& rows, const Indices& columns) const {
-  PolynomialRows minor;
-  for (const std::size_t i : rows) {
-    minor.emplace_back();
-    for (const std::size_t j : columns) minor.back().push_back(rows_[i][j]);
-  }
-  return minor;
-}
-
-/// A sum of independent functions without parameters, of which one coefficient is not zero at all
-/// parameters beside the zeros of the factors that were looked at. Where no function has parameters
-/// it is enough that the coefficients have no other factor in common: then they vanish together for
-/// fewer parameters than one equation leaves.
-bool SpecialParameters::is_never_identically_zero(const Polynomial& f) {
-  std::map<std::vector<unsigned long>, Polynomial> coefficients;
-  bool polynomial = true;
-  for (const auto& [number, exponents] : f.term_list()) {
-    std::vector<unsigned long> others(exponents.size()), own(exponents.size());
-    for (std::size_t i = 0; i < exponents.size(); ++i) {
-      if (exponents[i] > 0 && i >= ring_.symbols().size()) {
-        if (depends_on_parameters(ring().variable(i))) return false;
-        polynomial = false;
-      }
-      (is_parameter(i) ? own : others)[i] = exponents[i];
-    }
-    TermCollector term(ring());
-    term.add(number, own);
-    coefficients.try_emplace(others, ring()).first->second += term.finish();
-  }
-  const auto lasts = [&](const Polynomial& coefficient) {
-    const auto factors = coefficient.factors();
-    return ring_.is_nowhere_zero(coefficient) ||
-           std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
-             return factor.first.is_constant() || was_looked_at(factor.first);
-           });
-  };
-  Polynomial common(ring());
-  bool any = false;
-  for (const auto& [unused, coefficient] : coefficients) {
-    any = any || lasts(coefficient);
-    common = Polynomial::gcd(common, coefficient);
-  }
-  if (!any && (with_functions_ || !lasts(common))) return false;
-  if (polynomial) return true;
-  std::vector<Polynomial> functions;
-  for (const auto& [exponents, unused] : coefficients) {
-    TermCollector term(ring());
-    term.add(1, exponents);
-    functions.push_back(term.finish());
-  }
-  return independent_on_pieces(prover_, functions);
 }
 
 bool SpecialParameters::was_looked_at(const Polynomial& f) const {
