@@ -82,10 +82,15 @@ std::string claims_part(const Model& model, const Findings& findings) {
     place += claim(proof);
   }
   std::string text = "<section id=\"claims\">\n<h2>What is proved</h2>\n";
-  text += fmt::format(
-      "<p>Every claim is decided exactly, in the variables and in symbolic parameters: no floating "
-      "point, no sampling. {}; {}.</p>\n",
-      tally_of(model, findings.proofs).text(), duration_text(findings.proof_seconds));
+  const Tally tally = tally_of(model, findings.proofs);
+  if (tally.all() == 0)
+    text += "<p>Nothing is claimed.</p>\n";
+  else
+    text += fmt::format(
+        "<p>Every claim is decided exactly, in the variables and in symbolic parameters: no "
+        "floating "
+        "point, no sampling. {}; {}.</p>\n",
+        tally.text(), duration_text(findings.proof_seconds));
   text += list("Claims", counted) + list("Facts about the system", facts) +
           list("Beside the claims", notes);
   if (findings.obstruction) text += further_part(model, *findings.obstruction);

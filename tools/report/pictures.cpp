@@ -1,5 +1,8 @@
 #include "tools/report/pictures.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tools/bench/report.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/report/charts.hpp"
@@ -56,7 +59,11 @@ Pictures draw_pictures(const CaseFile& file, const Model& model, const Findings&
       if (has_apex(model, motion))
         pictures.apex = drawn(apex_picture(model, scene, motion, ""), "apex", beside);
     }
-    if (!findings.drifts.empty()) pictures.drift = drawn(drift_of(findings), "drift", beside);
+    // Where there is no invariant, the axes would be all.
+    const bool drifts =
+        std::ranges::any_of(findings.runs, [](const Row& row) { return std::isfinite(row.drift); });
+    if (drifts && !findings.drifts.empty())
+      pictures.drift = drawn(drift_of(findings), "drift", beside);
     if (findings.contest)
       pictures.work_precision = drawn(method_comparison_of(findings), "work-precision", beside);
   } catch (const SystemError& problem) {

@@ -172,5 +172,29 @@ TEST(Report, RefusesWhatItCannotDo) {
   EXPECT_EQ(folder.files(), 0U);
 }
 
+// Neither a mark of proof nor axes without a curve.
+TEST(Report, OfACaseWithoutClaimsAndInvariantsSaysSo) {
+  const Folder folder;
+  folder.write("case.toml", R"toml(
+[phase_space]
+variables = ["x", "y"]
+[equations]
+x = "y"
+y = "-x + y*(1 - x^2)"
+[[scene]]
+name = "default"
+initial = { x = "1", y = "0" }
+duration = "5"
+)toml");
+  const Outcome outcome =
+      run_in(folder, {"report", "./case.toml", "--budget", "2", "--output", "r.html", "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string page = file_text(folder.path() / "r.html");
+  EXPECT_NE(page.find("<p>Nothing is claimed.</p>"), std::string::npos);
+  EXPECT_NE(page.find("3 runs arrived, and there is no invariant to look at."), std::string::npos);
+  EXPECT_EQ(page.find("class=\"badge"), std::string::npos);
+  EXPECT_EQ(page.find("id=\"figure-drift\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace casimir::test

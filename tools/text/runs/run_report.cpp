@@ -123,8 +123,10 @@ std::string conservation_sentence(const std::vector<Row>& rows, double bound) {
     text += fmt::format("; {} {} none", unwatched, unwatched == 1 ? "has" : "have");
   if (missing > 0) text += fmt::format("; {} did not arrive", missing);
   if (refused > 0)
-    text += fmt::format("; {} {} refused: an extreme scene, or one that the method is not made for",
-                        refused, refused == 1 ? "is" : "are");
+    text += fmt::format(
+        "; {} {} refused: an extreme scene, one that the method is not made for, or "
+        "no time was left",
+        refused, refused == 1 ? "is" : "are");
   return text;
 }
 
