@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "symbolic/algebra/exact_constant.hpp"
 #include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/expression/arbitrary.hpp"
@@ -192,6 +194,15 @@ GiNaC::ex Model::at_parameters(const GiNaC::ex& expression, const Scene& scene) 
   for (const GiNaC::symbol& parameter : parameters)
     if (function_name(parameter.get_name()) && result.has(parameter))
       throw function_not_given(scene.name, parameter.get_name());
+  return result;
+}
+
+Model anywhere(const Model& model) {
+  Model result = model;
+  std::erase_if(result.assumptions, [&](const Assumption& a) {
+    return std::ranges::any_of(model.variables,
+                               [&](const GiNaC::symbol& x) { return a.difference.has(x); });
+  });
   return result;
 }
 

@@ -200,6 +200,10 @@ struct Model {
   GiNaC::ex at_parameters(const GiNaC::ex& expression, const Scene& scene) const;
 };
 
+/// The case without what it assumes of its variables. The start of a motion obeys that; what comes
+/// after it, or where a map leads, need not.
+Model anywhere(const Model& model);
+
 /// Values from the command line (`--param NAME=VALUE`) that replace parameters by exact constants
 /// before anything else is read.
 using ParameterValues = std::vector<std::pair<Text, Text>>;

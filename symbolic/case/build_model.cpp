@@ -65,7 +65,8 @@ class Builder {
     }
     read_rest();
     result.base = std::move(model_);
-    for (MapModel& step : result.steps) step.base = result.base;
+    for (MapModel& step : result.steps)
+      step.base = &step == &result.steps.front() ? result.base : anywhere(result.base);
     return result;
   }
 

@@ -31,16 +31,6 @@ std::vector<Residual> level_images(Prover& prover, const MapModel& map, const Fu
   return residuals;
 }
 
-/// The case without what it assumes of its variables: a step may lead to where that does not hold.
-Model anywhere(const Model& model) {
-  Model result = model;
-  std::erase_if(result.assumptions, [&](const Assumption& a) {
-    return std::any_of(model.variables.begin(), model.variables.end(),
-                       [&](const GiNaC::symbol& x) { return a.difference.has(x); });
-  });
-  return result;
-}
-
 /// Decides what is said of one map of a composition, in a ring of its own: what another step takes
 /// the root of is positive at another point.
 Proof decided_alone(const Model& model, const Claim& claim) {
@@ -59,6 +49,26 @@ void decide_whole(const MapModel& map, const Claim& whole, Proof& proof) {
   whole.decide(alone, proof);
 }
 
+/// Where the composition and all that is said of it have values: of the steps alone each says only
+/// where it has one itself, in variables that stand for another point.
+void say_where_composition_is(const Model& model, const Claim& whole, Proof& proof) {
+  constexpr double kFewTerms = 1000;  // of more the normal form takes longer than the proof
+  double terms = 0;
+  for (const ex& part : whole.expressions) terms += most_terms(part);
+  if (terms > kFewTerms) {
+    proof.nonzero.emplace_back("the denominators of the steps");
+    return;
+  }
+  Prover alone(model, whole.expressions, whole.subject);
+  alone.begin_claim(whole.expressions, whole.subject);
+  Proof nothing;
+  alone.decide(nothing, {}, {});
+  proof.nonzero = nothing.nonzero;
+  proof.positive = nothing.positive;
+  proof.not_zero = nothing.not_zero;
+  add_conditions(proof, nothing.where);
+}
+
 /// What every step keeps at all points, the composition keeps; of the first step the points are
 /// those at which the assumptions hold, those of the others are where the ones before have led.
 /// Where a step does not keep it, or not without a condition, or what is kept need not have a value
@@ -75,11 +85,9 @@ Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept,
                              part.expressions.end());
   claim.decide = [&map, kept, parts, claim_of](Prover& prover, Proof& proof) {
     if (!have_values_between_steps(map, kept)) return decide_whole(map, claim_of(map), proof);
-    const Model later = anywhere(map.base);
-    for (const Claim& part : parts) {
-      const bool first = &part == &parts.front();
-      const Proof own = decided_alone(first ? map.base : later, part);
-      if (own.verdict == Verdict::proved && (first || own.where.empty())) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Proof own = decided_alone(map.steps[i].base, parts[i]);
+      if (own.verdict == Verdict::proved && (i == 0 || own.where.empty())) {
         proof.where.insert(proof.where.end(), own.where.begin(), own.where.end());
         continue;
       }
@@ -92,6 +100,7 @@ Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept,
       return;
     }
     proof.verdict = Verdict::proved;
+    say_where_composition_is(map.base, claim_of(map), proof);
     // What is said of a step, as that it reverses the orientation, need not hold of them all.
     proof.evidence = fmt::format("each of the {} steps keeps it", parts.size());
   };

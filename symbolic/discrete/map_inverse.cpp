@@ -164,24 +164,6 @@ std::optional<Inverse> inverse_of_one(const MapModel& map, double largest) {
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<std::vector<ex>> proved_inverse(const MapModel& map, double largest) {
-  if (map.steps.empty()) return inverse_of_one(map, largest);
-  Inverse result(map.base.variables.begin(), map.base.variables.end());
-  for (const MapModel& step : map.steps) {
-    const std::optional<Inverse> of_step = inverse_of_one(step, largest);
-    if (!of_step) return std::nullopt;
-    GiNaC::exmap after;
-    for (std::size_t i = 0; i < result.size(); ++i) after[map.base.variables[i]] = (*of_step)[i];
-    // The inverse of the first step is done last.
-    for (ex& value : result) value = substituted(value, after, map.base.limits);
-  }
-  return result;
-}
-
-namespace {
-
 /// What has to be positive, or not zero, for these to have values.
 std::vector<std::string> implied_by(const Model& model, const std::vector<ex>& expressions) {
   const FunctionRing ring(model.symbols(), model.assumptions, expressions, model.limits);
@@ -208,9 +190,31 @@ bool has_values_where(const MapModel& map, const std::vector<ex>& inverse) {
 
 }  // namespace
 
+std::optional<std::vector<ex>> proved_inverse(const MapModel& map, double largest) {
+  if (map.steps.empty()) return inverse_of_one(map, largest);
+  Inverse result(map.base.variables.begin(), map.base.variables.end());
+  bool whole = true;
+  for (const MapModel& step : map.steps) {
+    const std::optional<Inverse> of_step = inverse_of_one(step, largest);
+    if (!of_step) return std::nullopt;
+    whole = whole && has_values_where(step, *of_step);
+    GiNaC::exmap after;
+    for (std::size_t i = 0; i < result.size(); ++i) after[map.base.variables[i]] = (*of_step)[i];
+    // The inverse of the first step is done last.
+    for (ex& value : result) value = substituted(value, after, map.base.limits);
+  }
+  // An inverse that has no value between the steps says nothing of the points that lead there, but
+  // may have one as a whole.
+  if (!whole && !is_proved_inverse(map, result)) return std::nullopt;
+  return result;
+}
+
 bool is_one_to_one(const MapModel& map, double largest) {
-  const auto inverse = proved_inverse(map, largest);
-  return inverse && has_values_where(map, *inverse);
+  const auto one = [largest](const MapModel& single) {
+    const auto inverse = inverse_of_one(single, largest);
+    return inverse && has_values_where(single, *inverse);
+  };
+  return map.steps.empty() ? one(map) : std::ranges::all_of(map.steps, one);
 }
 
 }  // namespace casimir::discrete

@@ -42,7 +42,8 @@ struct MapModel {
   std::vector<MapSymmetry> symmetries;
   std::vector<MapConjugacy> conjugacies{};
   /// Maps of which this one is the composition, the first one first; empty for a single one. It has
-  /// a value where all of them have.
+  /// a value where all of them have. What the case assumes of its variables is assumed by the first
+  /// one alone: the others begin where the ones before have led.
   std::vector<MapModel> steps{};
 
   /// f(x') for a function f of x.

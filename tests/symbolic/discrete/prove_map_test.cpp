@@ -278,6 +278,46 @@ TEST(ProveMap, RootsOfAStepGiveNoSignsToAnother) {
   EXPECT_EQ(verdict_of(map, ClaimKind::integral), Verdict::refuted);
 }
 
+// |x - 1| folds x > 0, though |x| does not, and so does the tent map, which keeps lengths as a
+// whole.
+TEST(ProveMap, WhatIsAssumedOfTheStartInvertsTheFirstStepAlone) {
+  const auto map = [](const std::string& domain, const std::vector<std::string>& steps) {
+    std::string text = "[phase_space]\nvariables = [\"x\"]\ndomain = [" + domain + "]\n";
+    for (const std::string& step : steps)
+      text += "[[map_step]]\nexpressions = { x = \"" + step + "\" }\n";
+    return map_of(text + "[[measure]]\ndensity = \"1\"\n");
+  };
+  const MapModel folds = map("\"x > 0\"", {"x - 1", "abs(x)"});
+  const Proof measure = proof_of(folds, ClaimKind::measure);
+  EXPECT_EQ(measure.verdict, Verdict::proved);
+  EXPECT_EQ(measure.where, std::vector<std::string>{"on sets on which the map is one to one"});
+  EXPECT_FALSE(discrete::proved_inverse(folds));
+  EXPECT_FALSE(discrete::is_one_to_one(folds, 1e6));
+
+  const MapModel tent = map("\"x > 0\", \"x < 1\"", {"1 - 2*x", "abs(x)", "1 - x"});
+  EXPECT_EQ(verdict_of(tent, ClaimKind::measure), Verdict::undecided);
+  EXPECT_FALSE(discrete::proved_inverse(tent));
+
+  // The first step begins where it is assumed.
+  const MapModel moved = map("\"x > 0\"", {"abs(x)", "x - 1"});
+  EXPECT_TRUE(proof_of(moved, ClaimKind::measure).where.empty());
+  EXPECT_TRUE(discrete::proved_inverse(moved));
+  EXPECT_TRUE(discrete::is_one_to_one(moved, 1e6));
+}
+
+TEST(ProveMap, WhereACompositionHasValuesIsSaidInTheVariablesOfItsStart) {
+  const auto proof = [](const std::string& second) {
+    return proof_of(map_of(kPhaseSpaceOfPlane +
+                           "[[map_step]]\nexpressions = { x = \"x - 1\" }\n"
+                           "[[map_step]]\nexpressions = { x = \"" +
+                           second + "\" }\n[integrals]\nY = \"y\"\n"),
+                    ClaimKind::integral);
+  };
+  EXPECT_EQ(proof("sqrt(x)").positive, std::vector<std::string>{"x - 1"});
+  EXPECT_EQ(proof("1/x").nonzero, std::vector<std::string>{"x - 1"});
+  EXPECT_NE(proof("1/x").evidence.find("each of the 2 steps"), std::string::npos);
+}
+
 // Neither step keeps x + y, their composition does.
 TEST(ProveMap, ACompositionMayKeepWhatItsStepsDoNot) {
   const MapModel map = map_of(
