@@ -37,16 +37,51 @@ std::vector<bool> used_variables(const PolynomialRows& rows) {
   return used;
 }
 
+/// Whether a generator of the ring occurs.
+bool has_generators(const FunctionRing& ring, const std::vector<Polynomial>& row) {
+  const std::vector<bool> used = used_variables({row});
+  return std::find(used.begin() +
+                       static_cast<std::ptrdiff_t>(std::min(used.size(), ring.symbols().size())),
+                   used.end(), true) != used.end();
+}
+
+/// Rows that are quotients of polynomials of the symbols, modulo a prime.
+class QuotientsModulo {
+ public:
+  /// Knows no ranks where there are other functions.
+  QuotientsModulo(const FunctionRing& ring, const PolynomialRows& numerators,
+                  const std::vector<Polynomial>& denominators) {
+    const auto others = [&](const auto& row) { return has_generators(ring, row); };
+    if (others(denominators) || std::any_of(numerators.begin(), numerators.end(), others)) return;
+    numerators_.emplace(numerators);
+    for (const Polynomial& d : denominators) denominators_.emplace_back(PolynomialRows{{d}});
+  }
+
+  /// Whether they have values at the point and at least that rank: then they do at almost all
+  /// points of each family of points that this one is in, if that is given by polynomials.
+  bool have_rank(std::size_t rank, const std::vector<GiNaC::ex>& point) const {
+    return numerators_ && numerators_->rank_at(point) >= rank &&
+           std::all_of(denominators_.begin(), denominators_.end(),
+                       [&](const MatrixModulo& d) { return d.rank_at(point) == 1; });
+  }
+
+ private:
+  std::optional<MatrixModulo> numerators_;
+  std::vector<MatrixModulo> denominators_;
+};
+
 class SpecialParameters {
  public:
   /// \param no_zeros  what vanishes nowhere where the case has values; empty before denominators are
   ///                  cleared
   SpecialParameters(Prover& prover, const PolynomialRows& rows, std::size_t rank,
+                    const QuotientsModulo& quotients,
                     std::optional<std::vector<Polynomial>> no_zeros = {})
       : prover_(prover),
         ring_(prover.ring()),
         rows_(rows),
         rank_(rank),
+        quotients_(quotients),
         no_zeros_(no_zeros.value_or(std::vector<Polynomial>())),
         nothing_divided_(no_zeros && no_zeros->empty()) {
     if (prover.model().parameters.empty()) return;
@@ -142,6 +177,7 @@ class SpecialParameters {
   const FunctionRing& ring_;
   const PolynomialRows& rows_;
   std::size_t rank_;
+  const QuotientsModulo& quotients_;
   std::vector<Polynomial> no_zeros_;
   bool nothing_divided_;  ///< the rows are reduced, and differ by that alone from those before
   Indices places_;        ///< of the parameters that the matrix depends on
@@ -383,7 +419,8 @@ void SpecialParameters::look_at_pairs() {
     if (std::find(simple.begin(), simple.end(), product) == simple.end()) simple.push_back(product);
   };
   for (const Polynomial& m : minors_) add_simple(m);
-  for (const Polynomial& m : neighbouring_minors()) {
+  const std::vector<Polynomial> neighbours = neighbouring_minors();
+  for (const Polynomial& m : neighbours) {
     if (m.is_constant()) return;
     add_simple(m);
   }
@@ -395,12 +432,19 @@ void SpecialParameters::look_at_pairs() {
   }
   const std::vector<ParameterForm> forms = parameter_forms(ring(), places_);
   std::vector<MinorModulo> modular;
-  for (const Polynomial& m : minors_) {
-    try {
-      modular.emplace_back(m);
-    } catch (const std::domain_error&) {  // it excludes nothing, then
+  const auto add_modular = [&](const std::vector<Polynomial>& minors) {
+    for (const Polynomial& m : minors) {
+      try {
+        modular.emplace_back(m);
+      } catch (const std::domain_error&) {  // it excludes nothing, then
+      }
     }
-  }
+  };
+  add_modular(minors_);
+  // At numbers that no functions have together a minor says nothing of the others.
+  if (std::none_of(rows_.begin(), rows_.end(),
+                   [&](const auto& row) { return has_generators(ring_, row); }))
+    add_modular(neighbours);
   // Where a condition excludes one form, it excludes both together.
   std::vector<bool> excluded;
   for (const ParameterForm& f : forms)
@@ -442,18 +486,16 @@ void SpecialParameters::look_at_set(ParameterEquations set) {
       at[place] = prover_.ring().expression(value).subs(others);
     return true;
   };
+  // Which points are inside of the assumptions takes longer to tell than the rank of quotients.
+  constexpr int kFirst = 3;
+  for (int k = 0; k < kFirst; ++k) {
+    std::vector<GiNaC::ex> coordinates = prover_.real_points().draw();
+    if (put(coordinates) && quotients_.have_rank(rank_, coordinates)) return;
+  }
   constexpr int kDraws = 50;  // a condition that is not confirmed is none here
   if (!lowers_rank(put, &tried, kDraws)) return;
   sets_.push_back(set);
   add(text + " != 0");
-}
-
-/// Whether a generator of the ring occurs.
-bool has_generators(const FunctionRing& ring, const std::vector<Polynomial>& row) {
-  const std::vector<bool> used = used_variables({row});
-  return std::find(used.begin() +
-                       static_cast<std::ptrdiff_t>(std::min(used.size(), ring.symbols().size())),
-                   used.end(), true) != used.end();
 }
 
 /// Puts numerators that are reduced by all relations into the rows, and returns the factors of what
@@ -478,7 +520,6 @@ std::optional<std::vector<Polynomial>> clear_denominators(const FunctionRing& ri
 
 std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows& rows,
                                            std::size_t rank) {
-  std::vector<std::string> conditions = SpecialParameters(prover, rows, rank).run();
   // The rank is that of rows times what vanishes nowhere: of v/(v + a) - v/(v + b) the factor a - b
   // is seen in the numerator alone.
   PolynomialRows numerators = rows;
@@ -487,9 +528,12 @@ std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows&
     denominators = clear_denominators(prover.ring(), numerators);
   } catch (const TooLarge&) {  // it is for almost all values then, as without them
   }
+  const QuotientsModulo quotients(prover.ring(), numerators,
+                                  denominators.value_or(std::vector<Polynomial>()));
+  std::vector<std::string> conditions = SpecialParameters(prover, rows, rank, quotients).run();
   if (!denominators) return conditions;
   for (std::string& more :
-       SpecialParameters(prover, numerators, rank, std::move(denominators)).run())
+       SpecialParameters(prover, numerators, rank, quotients, std::move(denominators)).run())
     if (std::find(conditions.begin(), conditions.end(), more) == conditions.end())
       conditions.push_back(std::move(more));
   return conditions;
