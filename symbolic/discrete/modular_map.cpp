@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/proof/thin_domain.hpp"
 
 namespace casimir::discrete {
 namespace {
@@ -27,6 +28,12 @@ ModularMap::ModularMap(const Model& model, const std::vector<GiNaC::ex>& functio
       throw ModelError(fmt::format(
           "'{}' is assumed, and degrees are those for generic values: a definition can say it",
           assumption.text));
+  }
+  if (!model.assumptions.empty()) {
+    Prover prover(model, {}, Subject::functions);
+    if (const auto thin = thin_domain(prover))
+      throw ModelError(fmt::format(
+          "degrees are those for generic values: {}; a definition can say what is assumed", *thin));
   }
   const PrimeField field;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)

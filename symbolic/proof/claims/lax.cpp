@@ -9,6 +9,7 @@
 #include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/spectrum_count.hpp"
 #include "symbolic/proof/generic_rank.hpp"
+#include "symbolic/proof/thin_domain.hpp"
 
 namespace casimir {
 namespace {
@@ -62,10 +63,13 @@ Ranks ranks_of(Prover& prover, const std::vector<Polynomial>& known,
                      [&](const Polynomial& g) { return proportional(f, g); }))
       all.push_back(f);
   }
+  const auto is_one = [](const std::optional<GenericRank>& rank) {
+    return rank && rank->exact && rank->uneven.empty();
+  };
   auto whole = all.empty() ? std::nullopt : gradient_rank(prover, all);
   const auto rank_of = [&](const std::vector<Polynomial>& functions) -> std::optional<std::size_t> {
     if (functions.empty()) return 0;
-    if (whole && whole->exact && !whole->points.empty()) {
+    if (is_one(whole) && !whole->points.empty()) {
       PolynomialRows rows;
       for (const Polynomial& f : functions) rows.push_back(prover.gradient(f));
       if (std::all_of(whole->points.begin(), whole->points.end(),
@@ -73,11 +77,11 @@ Ranks ranks_of(Prover& prover, const std::vector<Polynomial>& known,
         return whole->rank;
     }
     const auto own = gradient_rank(prover, functions);
-    return own && own->exact ? std::optional(own->rank) : std::nullopt;
+    return is_one(own) ? std::optional(own->rank) : std::nullopt;
   };
   Ranks result{rank_of(known), rank_of(found), std::nullopt};
   if (all.empty()) result.together = 0;
-  if (whole && whole->exact) result.together = whole->rank;
+  if (is_one(whole)) result.together = whole->rank;
   return result;
 }
 
@@ -157,6 +161,8 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
   // The gradients of functions on a level are independent of those of the level itself or not: that
   // takes another count.
   if (!pair.on.empty()) return;
+  // Where parameters have no generic values a rank at some of them says nothing of the others.
+  if (thin_domain(prover)) return;
   const Ranks ranks = ranks_of(prover, known, found);
   if (ranks.found) proof.evidence += fmt::format(", {} independent", *ranks.found);
   if (ranks.known && ranks.together) {

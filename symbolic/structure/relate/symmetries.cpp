@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/search/finder.hpp"
 #include "symbolic/search/generic_parameters.hpp"
 #include "symbolic/structure/bracket_equations.hpp"
 
@@ -187,7 +188,12 @@ SymmetryReport SymmetrySearch::run() {
   if (const std::string bound = system_.bound_parameter(); !bound.empty())
     throw ModelError("the parameter " + bound + " is bound to others: give numbers to them");
   const std::vector<std::vector<ex>> all = fields();
-  if (!report_.complete) report_.reason = "the equations for the fields were not solved";
+  if (!report_.complete) {
+    report_.reason = "the equations for the fields were not solved";
+  } else if (const auto doubt = search::thin_domain(system_)) {
+    report_.complete = false;
+    report_.reason = *doubt;
+  }
   for (const std::vector<ex>& coefficients : integrals()) {
     ex f = 0;
     for (std::size_t m = 0; m < monomials_.size(); ++m) f += coefficients[m] * monomials_[m];

@@ -30,7 +30,8 @@ struct SymmetryReport {
 /// Hamiltonian H; and where one is the Hamiltonian field of F, that integral.
 ///
 /// Theorem (Noether): if Y = P dF and Y(H) = 0, then {F, H} = -Y(H) = 0. The equations for D are
-/// linear: all solutions are found, and for generic values of the parameters there are no others.
+/// linear: all solutions are found, and for generic values of the parameters there are no others,
+/// where the assumptions leave generic values (`thin_domain`).
 /// That a Y without F is a symmetry is the solution of these equations itself.
 /// \throws ModelError  where the bracket or the Hamiltonian is no polynomial, or there is none
 SymmetryReport linear_symmetries(const Model& model, const search::Watch& watch = {});

@@ -31,6 +31,14 @@ std::string text_of(const Confinement& found) {
   return text;
 }
 
+// At a = 0, the only value, the map is linear.
+TEST(Degrees, OfParametersWithoutGenericValuesAreRefused) {
+  const MapModel map = map_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\na = { assume = \"a^2 <= 0\" }\n"
+      "[map]\nx = \"y\"\ny = \"-x + y + a*y^2\"\n");
+  EXPECT_THROW(discrete::degrees_of_iterates(map), ModelError);
+}
+
 TEST(Confinement, IntegrableMapsGiveBackWhatTheyLose) {
   for (const char* name : {"mcmillan", "lyness", "qrt", "kahan-euler"}) {
     const Confinement found = confinement_of(bundled_map(name));

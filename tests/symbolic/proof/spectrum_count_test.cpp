@@ -50,6 +50,17 @@ Model free_particles(const std::string& lax) {
       lax);
 }
 
+// One at a = 0 and two at a = 1, the only values.
+TEST(SpectrumCount, ARankThatDiffersFromPieceToPieceIsNotSaid) {
+  const auto evidence = [](const std::string& assume) {
+    return lax_of(
+               free_particles("[parameters]\na = { " + assume + " }\n" + diagonal({"a*p1", "p2"})))
+        .evidence;
+  };
+  EXPECT_NE(evidence("assume = \"a > 0\"").find(", 2 independent"), std::string::npos);
+  EXPECT_EQ(evidence("assume = \"a^2*(a - 1)^2 <= 0\"").find("independent"), std::string::npos);
+}
+
 TEST(SpectrumCount, OfLagrangesTopIsEnough) {
   const SpectrumCount count = count_of(bundled("lagrange-lax"));
   EXPECT_EQ(count.involution, Verdict::proved);

@@ -125,5 +125,20 @@ TEST(Symmetries, AreThoseOfNoether) {
   EXPECT_TRUE(structure::linear_symmetries(bundled("kovalevskaya")).found.empty());
 }
 
+// At a = 1, the only value, the rotation about the third axis is one.
+TEST(Symmetries, OfParametersWithoutGenericValuesAreNotAll) {
+  const Model top = model_of(R"toml(
+hamiltonian = "M1^2 + a*M2^2 + 3*M3^2"
+[phase_space]
+variables = ["M1", "M2", "M3"]
+algebra = "so(3)"
+[parameters]
+a = { assume = ["a >= 1", "a <= 1"] }
+)toml");
+  const auto report = structure::linear_symmetries(top);
+  EXPECT_FALSE(report.complete);
+  EXPECT_NE(report.reason.find("equality"), std::string::npos) << report.reason;
+}
+
 }  // namespace
 }  // namespace casimir::test
