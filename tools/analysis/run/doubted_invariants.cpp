@@ -5,13 +5,13 @@
 #include <algorithm>
 
 #include "tools/analysis/proof/prove_in_process.hpp"
-#include "tools/analysis/run/drift_check.hpp"
 
 namespace casimir {
 
-std::string doubt_of_invariant(const std::string& name, double change, Verdict verdict) {
-  return fmt::format("{} changes by {:.1e} of its size, and it is {} to be an integral", name,
-                     change, verdict == Verdict::refuted ? "refuted" : "not proved");
+std::string doubt_of_invariant(const std::string& name, double change,
+                               const KnownInvariant& known) {
+  return fmt::format("{} changes by {:.1e} of its size, and it is {}", name, change,
+                     words_of(known));
 }
 
 std::vector<std::string> doubts_of_drifts(const Model& model, const Scene& scene,
@@ -21,8 +21,9 @@ std::vector<std::string> doubts_of_drifts(const Model& model, const Scene& scene
   std::vector<std::string> doubts;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (drifts[i] <= std::max(kLeast, kTimes * rtol)) continue;
-    if (const Verdict verdict = verdict_on(model, scene, names[i]); verdict != Verdict::proved)
-      doubts.push_back(doubt_of_invariant(names[i], drifts[i], verdict));
+    const KnownInvariant known = known_invariant(model, scene, names[i]);
+    if (known.proof.verdict != Verdict::proved)
+      doubts.push_back(doubt_of_invariant(names[i], drifts[i], known));
   }
   return doubts;
 }
@@ -51,9 +52,9 @@ std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& or
              (proof.kind == ClaimKind::integral || proof.kind == ClaimKind::conditional ||
               proof.kind == ClaimKind::casimir);
     });
-    const Verdict verdict = found == proofs.end() ? Verdict::undecided : found->verdict;
-    if (verdict != Verdict::proved)
-      doubts.push_back(doubt_of_invariant(one.name, one.drift, verdict));
+    const KnownInvariant known{found == proofs.end() ? Proof{} : *found};
+    if (known.proof.verdict != Verdict::proved)
+      doubts.push_back(doubt_of_invariant(one.name, one.drift, known));
   }
   return doubts;
 }

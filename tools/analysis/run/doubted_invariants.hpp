@@ -6,13 +6,14 @@
 #include "runtime/ensemble.hpp"
 #include "symbolic/discrete/map_model.hpp"
 #include "symbolic/prove.hpp"
+#include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/run/iterate.hpp"
 
 namespace casimir {
 
 /// The sentence about an invariant that changed and is not proved to be an integral.
 /// \param change  relative to its size
-std::string doubt_of_invariant(const std::string& name, double change, Verdict verdict);
+std::string doubt_of_invariant(const std::string& name, double change, const KnownInvariant& known);
 
 /// Sentences about the invariants that changed by much more than the tolerance allows, and are not
 /// proved to be integrals.

@@ -25,7 +25,8 @@ bool declares(const Model& model, const std::string& name) {
 
 }  // namespace
 
-Proof proof_of(const Model& model, const Scene& scene, const std::string& invariant) {
+KnownInvariant known_invariant(const Model& model, const Scene& scene,
+                               const std::string& invariant) {
   // Among the invariants H is the Hamiltonian, though the file may call a variable or a definition
   // that: here it gets a name that the file does not use.
   Model named = model_in_scene(model, scene);
@@ -36,12 +37,22 @@ Proof proof_of(const Model& model, const Scene& scene, const std::string& invari
   }
   Candidates candidates;
   candidates.integrals.push_back({name, {"invariant", 1, 1}, name});
-  const std::vector<Proof> proofs = prove_within(kSecondsOfCheck, named, candidates, {});
-  return proofs.empty() ? Proof{} : proofs.front();
+  const auto proof_in = [&](const Model& where) {
+    const std::vector<Proof> proofs = prove_within(kSecondsOfCheck, where, candidates, {});
+    return proofs.empty() ? Proof{} : proofs.front();
+  };
+  const Model all = anywhere(named);
+  KnownInvariant known{proof_in(all)};
+  if (known.proof.verdict != Verdict::proved && all.assumptions.size() < named.assumptions.size())
+    known.on_domain = proof_in(named).verdict == Verdict::proved;
+  return known;
 }
 
-Verdict verdict_on(const Model& model, const Scene& scene, const std::string& invariant) {
-  return proof_of(model, scene, invariant).verdict;
+std::string words_of(const KnownInvariant& known) {
+  if (known.on_domain)
+    return "proved to be an integral on the domain of the case alone, which a motion may leave";
+  return fmt::format("{} to be an integral",
+                     known.proof.verdict == Verdict::refuted ? "refuted" : "not proved");
 }
 
 DriftDoubts check_drift(const Model& model, const Scene& scene,
@@ -56,10 +67,11 @@ DriftDoubts check_drift(const Model& model, const Scene& scene,
           fmt::format("{} has no value where the run begins, and says nothing of it", names[i]));
       continue;
     }
-    const Proof proof = proof_of(model, scene, names[i]);
+    const KnownInvariant known = known_invariant(model, scene, names[i]);
+    const Proof& proof = known.proof;
     if (proof.verdict != Verdict::proved) {
       doubts.which.push_back(i);
-      doubts.sentences.push_back(doubt_of_invariant(names[i], record.drift, proof.verdict));
+      doubts.sentences.push_back(doubt_of_invariant(names[i], record.drift, known));
     } else if (!proof.jumps.empty()) {
       doubts.which.push_back(i);
       doubts.sentences.push_back(fmt::format(

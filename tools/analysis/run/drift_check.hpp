@@ -22,11 +22,21 @@ struct DriftDoubts {
 DriftDoubts check_drift(const Model& model, const Scene& scene,
                         const std::vector<std::string>& names, Trajectory& trajectory);
 
+/// What is known of an invariant along motions.
+struct KnownInvariant {
+  Proof proof;             ///< that it is an integral, wherever a motion goes
+  bool on_domain = false;  ///< it is not proved to be one but where the case's assumptions hold
+};
+
 /// What can be proved of that invariant of the case, "H" or one of the file, as an integral, with
 /// the functions of the scene: what is proved of all smooth ones says nothing of one that jumps.
-Proof proof_of(const Model& model, const Scene& scene, const std::string& invariant);
+/// What the case assumes of its variables is not assumed: a motion may lead to where it does not
+/// hold.
+KnownInvariant known_invariant(const Model& model, const Scene& scene,
+                               const std::string& invariant);
 
-/// Whether that invariant of the case, "H" or one of the file, is an integral.
-Verdict verdict_on(const Model& model, const Scene& scene, const std::string& invariant);
+/// "refuted to be an integral", "not proved to be an integral" or where it is one; of what is not
+/// proved.
+std::string words_of(const KnownInvariant& known);
 
 }  // namespace casimir

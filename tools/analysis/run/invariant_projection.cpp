@@ -11,14 +11,6 @@
 #include "tools/analysis/run/drift_check.hpp"
 
 namespace casimir {
-namespace {
-
-std::string said_of(const std::string& name, Verdict verdict) {
-  return fmt::format("{} is {} to be an integral", name,
-                     verdict == Verdict::refuted ? "refuted" : "not proved");
-}
-
-}  // namespace
 
 std::vector<std::string> set_projection(const RunRequest& options, const Model& model,
                                         const Scene& scene, const PreparedScene& run,
@@ -37,10 +29,11 @@ std::vector<std::string> set_projection(const RunRequest& options, const Model& 
   for (std::size_t k = 0; k < known.size(); ++k) {
     const bool named = std::ranges::count(options.project_onto, known[k]) != 0;
     if (!options.project_onto.empty() && !named) continue;
-    const Verdict verdict = verdict_on(model, scene, known[k]);
-    if (verdict != Verdict::proved) {
-      if (named) throw RequestError("cannot project: " + said_of(known[k], verdict));
-      doubts.push_back("not projected onto: " + said_of(known[k], verdict));
+    const KnownInvariant invariant = known_invariant(model, scene, known[k]);
+    if (invariant.proof.verdict != Verdict::proved) {
+      const std::string said = fmt::format("{} is {}", known[k], words_of(invariant));
+      if (named) throw RequestError("cannot project: " + said);
+      doubts.push_back("not projected onto: " + said);
       continue;
     }
     names.push_back(known[k]);

@@ -34,27 +34,12 @@ Program with_resting(Program rates, const std::vector<std::string>& resting) {
   return rates;
 }
 
-bool has_any(const GiNaC::ex& e, const std::vector<GiNaC::symbol>& symbols) {
-  return std::ranges::any_of(symbols, [&](const GiNaC::symbol& x) { return e.has(x); });
-}
-
-/// The case without what it assumes of its variables: the start obeys that, and what comes after
-/// it need not.
-Model wherever_it_goes(const Model& model) {
-  Model result = model;
-  std::erase_if(result.assumptions, [&](const Assumption& assumption) {
-    return has_any(assumption.difference, model.variables);
-  });
-  return result;
-}
-
 /// The integrals that are proved without further conditions. That of an invariant is the identity
 /// dI/dt = 0 of functions, on the assumptions of the case that are about parameters alone, which
 /// every scene obeys.
-std::vector<KnownIntegral> known_integrals(const Model& given, const Scene& scene,
+std::vector<KnownIntegral> known_integrals(const Model& model, const Scene& scene,
                                            const Specialisation& s, std::size_t dimension,
                                            std::vector<std::string>& doubts) {
-  const Model model = wherever_it_goes(given);
   std::vector<KnownIntegral> result;
   const auto late = time_limit(kSecondsOfProof);
   for (std::size_t k = 0; k < s.invariant_names.size(); ++k) {
@@ -64,11 +49,10 @@ std::vector<KnownIntegral> known_integrals(const Model& given, const Scene& scen
           fmt::format("{} does not make the box smaller: no time was left to prove it", name));
       continue;
     }
-    const Proof proof = proof_of(model, scene, name);
-    if (proof.verdict != Verdict::proved || !proof.where.empty()) {
-      doubts.push_back(fmt::format("{} does not make the box smaller: it is {} to be an integral",
-                                   name,
-                                   proof.verdict == Verdict::refuted ? "refuted" : "not proved"));
+    const KnownInvariant known_of = known_invariant(model, scene, name);
+    if (known_of.proof.verdict != Verdict::proved || !known_of.proof.where.empty()) {
+      doubts.push_back(
+          fmt::format("{} does not make the box smaller: it is {}", name, words_of(known_of)));
       continue;
     }
     KnownIntegral known{.name = name,
