@@ -1,6 +1,7 @@
 #include "runtime/integrate.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -126,6 +127,74 @@ void run_on(const Module& module, const Method& method, casimir_run run, const S
   }
 }
 
+/// Ends a run behind each step whose state somebody changes, and goes on from there.
+class ChangedSteps {
+ public:
+  ChangedSteps(const Settings& settings, Observer& observer)
+      : settings_(settings), observer_(observer) {}
+
+  void take(casimir_run& run) {
+    observed_ = run.observe != nullptr;
+    run.observe = [](void* self, const casimir_step* step) {
+      return static_cast<ChangedSteps*>(self)->see(*step);
+    };
+    run.observer = this;
+  }
+
+  void go(const Module& module, const Method& method, casimir_run run, const StepLook* look,
+          std::vector<double>& x, casimir_outcome& outcome) {
+    const auto most_steps = run.max_steps;
+    behind_.resize(x.size());
+    for (;;) {
+      change_ = StepChange::none;
+      stopped_ = false;
+      casimir_outcome part = {};
+      run_on(module, method, run, look, x.data(), part);
+      outcome = {.status = part.status,
+                 .t = part.t,
+                 .steps = outcome.steps + part.steps,
+                 .rejected = outcome.rejected + part.rejected,
+                 .evaluations = outcome.evaluations + part.evaluations,
+                 .jacobians = outcome.jacobians + part.jacobians};
+      if (change_ == StepChange::none) return;
+      x = behind_;
+      if (change_ == StepChange::unknown) outcome.status = CASIMIR_NO_CONVERGENCE;
+      if (change_ == StepChange::unknown || part.status != CASIMIR_STOPPED || stopped_) return;
+      outcome.status = CASIMIR_OK;
+      if (part.t == run.t_end) return;
+      const auto taken = outcome.steps + outcome.rejected;
+      if (most_steps > 0 && taken >= most_steps) {
+        outcome.status = CASIMIR_MAX_STEPS;
+        return;
+      }
+      if (most_steps > 0) run.max_steps = most_steps - taken;
+      run.t_begin = part.t;
+    }
+  }
+
+  /// Whether that is why the run ended.
+  bool is_unknown() const { return change_ == StepChange::unknown; }
+
+ private:
+  int see(const casimir_step& step) {
+    stopped_ = observed_ && observe(&observer_, &step) != 0;
+    std::copy_n(step.x1, behind_.size(), behind_.data());
+    change_ = settings_.after_step(
+        {.t0 = step.t0,
+         .t1 = step.t1,
+         .x0 = step.x0,
+         .state_at = [&step](double t, double* x) { step.dense(&step, t, x); }},
+        behind_.data());
+    return stopped_ || change_ != StepChange::none ? 1 : 0;
+  }
+
+  const Settings& settings_;
+  Observer& observer_;
+  std::vector<double> behind_;  ///< the state at the end of the last step, as it is then
+  StepChange change_ = StepChange::none;
+  bool observed_ = false, stopped_ = false;
+};
+
 void run_kernel(const Module& module, const Method& method, const Settings& s,
                 const double* parameters, Observer& observer, Trajectory& trajectory) {
   DenseSolver solver;
@@ -165,16 +234,25 @@ void run_kernel(const Module& module, const Method& method, const Settings& s,
     leading = exact_rates->view();
     run.leading = &leading;
   }
+  std::optional<ChangedSteps> changed;
+  if (s.after_step) changed.emplace(s, observer).take(run);
   casimir_outcome outcome = {};
+  const auto go = [&] {
+    if (changed)
+      changed->go(module, method, run, seen, trajectory.state, outcome);
+    else
+      run_on(module, method, run, seen, trajectory.state.data(), outcome);
+  };
   const auto start = Clock::now();
   if (s.begin_anew > 0 && s.begin_anew < std::abs(s.duration)) {
     run.t_end = s.begin + std::copysign(s.begin_anew, s.duration);
-    run_on(module, method, run, seen, trajectory.state.data(), outcome);
+    go();
     run.t_begin = run.t_end;
     run.t_end = s.begin + s.duration;
   }
-  if (outcome.status == CASIMIR_OK)
-    run_on(module, method, run, seen, trajectory.state.data(), outcome);
+  if (outcome.status == CASIMIR_OK) go();
+  if (changed && changed->is_unknown())
+    trajectory.reason = "it is not known how deviations pass a jump of the equations";
   trajectory.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   trajectory.status = status_of(outcome.status);
   if (trajectory.status == Status::step_underflow && look && look->at_pole())
@@ -260,6 +338,10 @@ void check_settings(const Settings& s, const Method& method) {
     refuse(std::string(method.name) + " has no constant step");
   if (s.project && !method.outside.empty())
     refuse(std::string(method.name) + " is another library's and cannot be projected");
+  if (s.after_step && !method.outside.empty())
+    refuse(
+        std::string(method.name) +
+        " is another library's, and does not carry deviations over the jumps of these equations");
   if (!(s.sample_every >= 0)) refuse("the time between samples must be positive");
   if (s.sample_every > 0 && !(std::abs(s.duration) / s.sample_every <= kMostSamples))
     refuse("the time between samples is so small that there would be more than 1e8 of them");
@@ -306,7 +388,7 @@ Trajectory integrate(const Module& module, const Method& method, const Settings&
   } else {
     run_kernel(module, method, settings, p, observer, trajectory);
   }
-  trajectory.reason = reason_of(trajectory.status);
+  if (trajectory.reason.empty()) trajectory.reason = reason_of(trajectory.status);
   name_stiffness(module, method, p, trajectory);
   observer.finish(trajectory);
   return trajectory;

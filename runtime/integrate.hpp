@@ -31,6 +31,23 @@ std::string to_string(Status status);
 using InvariantTerms =
     std::function<void(double t, const double* x, long double* values, long double* sizes)>;
 
+/// A step that is taken.
+struct TakenStep {
+  double t0, t1;
+  const double* x0;                                   ///< where it began
+  std::function<void(double t, double* x)> state_at;  ///< writes the state at a time within it
+};
+
+/// What becomes of the state at the end of a step.
+enum class StepChange {
+  none,
+  changed,  ///< the run goes on from the state that is now there
+  unknown   ///< the run ends as `no_convergence`
+};
+
+/// May change x, the state at the end of the step.
+using AfterStep = std::function<StepChange(const TakenStep& step, double* x)>;
+
 /// What a run shall be like, and what it is watched by.
 struct Settings {
   double begin = 0;     ///< the time at the start; 0 for other libraries' methods
@@ -63,6 +80,8 @@ struct Settings {
   /// If set, shown the state and its carry at the end of each step, which it may change, before the
   /// step is accepted: see Projector. For our own methods only.
   std::function<void(double t, double* x, double* carry)> project = {};
+  /// If set, shown each step, the state at whose end it may change. For our own methods only.
+  AfterStep after_step = {};
   std::function<void(double t)> progress = {};  ///< if set, told the time after each step
   std::function<bool()> give_up;  ///< asked after each step; true ends the run as `stopped`
 };

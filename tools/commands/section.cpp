@@ -68,6 +68,7 @@ class SectionCommand {
 
   int run() {
     check_memory(options_, problem_.states());
+    if (options_.longest_cycle() > 0) require_derivative_of_return(problem_);
     SectionReport report{.problem = problem_, .orbits = {}, .cycles = {}, .warnings = {}};
     report.tolerance = options_.tolerance;
     report.compile_seconds = cutter_.kernel().seconds;

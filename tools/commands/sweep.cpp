@@ -180,7 +180,7 @@ int sweep_status(const SweepReport& report, bool interrupted) {
       follows_crossings(report.options.task)
           ? std::string{}
           : ", at t = " + exact_text(outcome.rows[first].values.front()),
-      reason_of(outcome.rows[first].status));
+      report.prepared.study.task().reason(outcome.rows[first].status));
   return kNotContinued;
 }
 

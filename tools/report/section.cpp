@@ -21,9 +21,10 @@ std::string words_on_grey(const std::vector<OrbitReport>& orbits) {
   std::string words;
   if (chaotic) words += " Chaotic orbits are grey.";
   if (unknown > 0)
-    words += fmt::format(" Of {}, too short or running away, it is not known: {} grey.",
-                         unknown == 1 ? "one orbit" : fmt::format("{} orbits", unknown),
-                         chaotic ? "these, too, are" : "these are");
+    words += fmt::format(
+        " Of {}, too short, running away or of equations that jump, it is not known: {} grey.",
+        unknown == 1 ? "one orbit" : fmt::format("{} orbits", unknown),
+        chaotic ? "these, too, are" : "these are");
   return words;
 }
 

@@ -128,9 +128,11 @@ void print(const ProvedCycle& proof, const std::string& ranges) {
 void print_cycles(const SectionReport& report) {
   if (report.cycles.cycles.empty() && report.cycles.degenerate == 0) return;
   const SectionProblem& problem = report.problem;
-  fmt::print("\n  cycle  {:>14}  {:>14}  {:>12}  {:>12}  kind\n",
-             problem.plotted[0].period > 0 ? "u/pi" : "u",
-             problem.plotted[1].period > 0 ? "v/pi" : "v", "period", "trace");
+  const bool all_left_out = report.cycles.cycles.empty();
+  if (!all_left_out)
+    fmt::print("\n  cycle  {:>14}  {:>14}  {:>12}  {:>12}  kind\n",
+               problem.plotted[0].period > 0 ? "u/pi" : "u",
+               problem.plotted[1].period > 0 ? "v/pi" : "v", "period", "trace");
   for (std::size_t k = 0; k < report.cycles.cycles.size(); ++k) {
     const Cycle& cycle = report.cycles.cycles[k];
     for (std::size_t i = 0; i < cycle.length(); ++i) {
@@ -148,11 +150,14 @@ void print_cycles(const SectionReport& report) {
     }
     if (!report.proofs.empty()) print(report.proofs[k], report.ranges);
   }
+  const bool one = report.cycles.degenerate == 1;
+  const char* const words =
+      all_left_out ? (one ? "cycle was" : "cycles were") : (one ? "more was" : "more were");
   if (report.cycles.degenerate > 0)
     fmt::print(
-        "  {} more were left out: an eigenvalue of the return is 1, to within {:g}, as those of "
+        "  {} {} left out: an eigenvalue of the return is 1, to within {:g}, as those of "
         "families have it, in integrable systems\n",
-        report.cycles.degenerate, kDegenerateCycle);
+        report.cycles.degenerate, words, kDegenerateCycle);
 }
 
 }  // namespace
@@ -267,7 +272,7 @@ Json to_json(const SectionReport& report, bool points) {
                {"cycles", Json::array()},
                {"degenerate_cycles", report.cycles.degenerate},
                {"crossings", report.crossings()},
-               {"chaotic", report.chaotic()},
+               {"chaotic", problem.jumps ? Json(nullptr) : Json(report.chaotic())},
                {"off_level", exact_text(report.off_level())},
                {"steps", report.steps()},
                {"jobs", report.jobs},
@@ -309,13 +314,17 @@ void print_text(const SectionReport& report) {
   const auto unknown = std::ranges::count(report.orbits, false, &OrbitReport::judged);
   const auto closed = std::ranges::count_if(
       report.orbits, [](const OrbitReport& orbit) { return orbit.judged && orbit.closed; });
-  fmt::print(
-      "  {} regular, {} chaotic{}{} by the growth of deviations, which is evidence\n"
-      "  every point on its level to {:.1e}\n",
-      report.orbits.size() - report.chaotic() - static_cast<std::size_t>(unknown), report.chaotic(),
-      closed > 0 ? fmt::format(", {} of the regular ones closed", closed) : "",
-      unknown > 0 ? fmt::format(", {} too short to tell or running away:", unknown) : ":",
-      report.off_level());
+  if (problem.jumps)
+    fmt::print(
+        "  which are regular and which chaotic is not told: the equations jump, and the growth of "
+        "deviations is not followed over that\n");
+  else
+    fmt::print("  {} regular, {} chaotic{}{} by the growth of deviations, which is evidence\n",
+               report.orbits.size() - report.chaotic() - static_cast<std::size_t>(unknown),
+               report.chaotic(),
+               closed > 0 ? fmt::format(", {} of the regular ones closed", closed) : "",
+               unknown > 0 ? fmt::format(", {} too short to tell or running away:", unknown) : ":");
+  fmt::print("  every point on its level to {:.1e}\n", report.off_level());
   double largest = 0;
   for (const OrbitReport& orbit : report.orbits)
     if (orbit.chaotic) largest = std::max(largest, orbit.exponent);

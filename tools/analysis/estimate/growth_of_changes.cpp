@@ -5,6 +5,7 @@
 
 #include "codegen/optimise/differentiate.hpp"
 #include "runtime/uncompiled.hpp"
+#include "tools/analysis/estimate/saltation.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
@@ -92,7 +93,8 @@ class Follower {
       : run_(run),
         sizes_(sizes),
         stiff_(stiff),
-        rhs_(codegen::variational(run.specialisation.rhs, sizes.size())) {
+        rhs_(codegen::variational(run.specialisation.rhs, sizes.size())),
+        saltation_(run.specialisation.rhs) {
     const TaylorChoice choice =
         choose_taylor_path(rhs_, run.specialisation.limits, run.parameters, false);
     module_.emplace(uncompiled_module(rhs_, {}, choice.form, run.parameters));
@@ -154,6 +156,8 @@ class Follower {
       deviation.see(t - from.time, x);
       if (keep) path_.push_back({t, {x, x + n}});
     };
+    saltation_.begin();
+    settings.after_step = saltation_.hook(run_.parameters, 2 * n);
     // More is not told apart, and deviations that begin as large as states would overflow.
     settings.give_up = [&] {
       return deviation.now() >= kMostGrowth || (settings_.give_up && settings_.give_up());
@@ -223,6 +227,7 @@ class Follower {
   const std::vector<double>& sizes_;
   const bool stiff_;
   Program rhs_;
+  Saltation saltation_;
   std::optional<Module> module_;
   Settings settings_;
   unsigned long long steps_ = 0;

@@ -211,7 +211,8 @@ std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult resu
     report.seed = seeds[i];
     check_level(level, report);
     judge_growth(report);
-    if (runs_away(level, report.orbit)) report.judged = report.chaotic = false;
+    if (level.problem().jumps || runs_away(level, report.orbit))
+      report.judged = report.chaotic = false;
     reports.push_back(std::move(report));
   }
   return reports;

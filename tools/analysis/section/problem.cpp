@@ -17,6 +17,7 @@
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/estimate/saltation.hpp"
 #include "tools/analysis/section/periods.hpp"
 #include "tools/analysis/section/simple_zeros.hpp"
 
@@ -102,6 +103,7 @@ class Maker {
     Specialisation& s = run.specialisation;
     const std::vector<cln::cl_F> start = start_values(s, kConstantDigits);
     for (std::size_t i = 0; i < s.states.size(); ++i) run.initial.push_back(rounded(start[i]));
+    problem_.jumps = Saltation(s.rhs).needed();
     problem_.deviating = run;
     Specialisation& twice = problem_.deviating.specialisation;
     twice.rhs = s.variational;
@@ -271,6 +273,13 @@ std::string SectionProblem::proved_level_text() const {
   for (std::size_t i = 0; i < levels.size(); ++i)
     text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", level_names[i], levels[i]);
   return text;
+}
+
+void require_derivative_of_return(const SectionProblem& problem) {
+  if (problem.jumps)
+    throw RequestError(
+        "cycles are sought by the derivative of the return, which is not known where the equations "
+        "jump, as sign(..) does");
 }
 
 SectionProblem section_problem(const Model& model, const Scene& scene,

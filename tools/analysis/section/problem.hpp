@@ -48,6 +48,9 @@ struct SectionProblem {
   bool on_scene = true;                  ///< these are the values of the scene
   std::vector<bool> angles;              ///< states that are known up to multiples of 2 Pi
   std::size_t leaf = 4;                  ///< dimension of the symplectic leaf
+  /// The rates may jump. The deviations of orbits in lanes are not carried over that (see
+  /// Saltation): nothing is said of their growth, and the return has no derivative.
+  bool jumps = false;
 
   /// "H = 1.5, F1 = 1".
   std::string level_text() const;
@@ -61,6 +64,9 @@ struct SectionProblem {
 /// \throws RequestError  for a system whose orbits lie on no level of an energy: one without a
 ///                       Hamiltonian, or with the time in it.
 void require_energy_level(const Model& model);
+
+/// \throws RequestError  where the return has no derivative that is known
+void require_derivative_of_return(const SectionProblem& problem);
 
 /// Specialises the system with plane, pair and level.
 /// \throws RequestError  for systems that have no such section: no Hamiltonian, the time in it, one

@@ -42,6 +42,7 @@ std::vector<LevelSet::Vector> checked_seeds(const LevelSet& level,
 PoincareSection section(const Model& model, const Scene& scene, const PoincareOptions& options) {
   PoincareSection result{
       std::make_unique<const SectionProblem>(section_problem(model, scene, options.request)), {}};
+  if (options.longest_cycle > 0) require_derivative_of_return(*result.problem);
   const LevelSet level(*result.problem);
   const OrbitCutter cutter(*result.problem, {options.tolerance, options.jobs, options.give_up},
                            options.orbits * options.points);

@@ -41,15 +41,26 @@ const Method& deviation_method(const PreparedScene& run, const Method& method) {
                                                             : method;
 }
 
+std::string reason_of_deviations(Status status) {
+  const std::string reason = reason_of(status);
+  return status == Status::no_convergence
+             ? reason + ", or it is not known how deviations pass a jump of the equations"
+             : reason;
+}
+
+std::size_t threads_for(const std::vector<std::size_t>& points, int threads) {
+  return std::min<std::size_t>(static_cast<std::size_t>(threads), points.size());
+}
+
 std::vector<PointResult> each_with_module(
     const PreparedScene& deviating, const Method& method, const std::vector<std::size_t>& points,
     int threads, const std::function<bool()>& give_up, const PointResult& unknown,
-    const std::function<PointResult(const Module& module, std::size_t point)>& follow) {
+    const std::function<PointResult(const Module& module, std::size_t thread, std::size_t point)>&
+        follow) {
   std::vector<PointResult> results(points.size(), unknown);
   // Exact numbers are counted without locks: whatever holds any is made in this thread.
   std::vector<CompiledModule> modules;
-  const std::size_t workers =
-      std::min<std::size_t>(static_cast<std::size_t>(threads), points.size());
+  const std::size_t workers = threads_for(points, threads);
   for (std::size_t i = 0; i < workers; ++i) modules.push_back(compile_for(deviating, method));
   std::atomic<std::size_t> next = 0;
   std::vector<std::exception_ptr> problems(workers);
@@ -58,7 +69,7 @@ std::vector<PointResult> each_with_module(
     pool.emplace_back([&, i] {
       try {
         for (std::size_t k = next++; k < points.size() && !(give_up && give_up()); k = next++)
-          results[k] = follow(modules[i].module, points[k]);
+          results[k] = follow(modules[i].module, i, points[k]);
       } catch (...) {
         problems[i] = std::current_exception();
       }

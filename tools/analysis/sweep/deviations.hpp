@@ -22,11 +22,19 @@ const Method& deviation_method(const PreparedScene& run, const Method& method);
 
 /// Does the same with each of these points on several threads, each with a module of its own.
 /// \param deviating  of `with_deviation`
+/// \param follow  told which of the threads it is done in, from 0, for what serves one at a time
 /// \param unknown  the result of a point that is not done
 /// \throws RequestError  for settings that cannot be
 std::vector<PointResult> each_with_module(
     const PreparedScene& deviating, const Method& method, const std::vector<std::size_t>& points,
     int threads, const std::function<bool()>& give_up, const PointResult& unknown,
-    const std::function<PointResult(const Module& module, std::size_t point)>& follow);
+    const std::function<PointResult(const Module& module, std::size_t thread, std::size_t point)>&
+        follow);
+
+/// Why deviations could not be followed to the end: a sentence.
+std::string reason_of_deviations(Status status);
+
+/// How many threads `each_with_module` takes.
+std::size_t threads_for(const std::vector<std::size_t>& points, int threads);
 
 }  // namespace casimir

@@ -10,6 +10,7 @@
 #include "codegen/specialise.hpp"
 #include "runtime/program/interpreter.hpp"
 #include "runtime/step/dense.hpp"
+#include "tools/analysis/estimate/saltation.hpp"
 #include "tools/analysis/sweep/deviations.hpp"
 #include "tools/analysis/verify.hpp"
 
@@ -35,9 +36,9 @@ struct Judged {
   std::vector<std::string> proved, left_out;
 };
 
-/// Which of the invariants are proved, and so that nothing but the assumptions is needed.
+/// Which of the invariants are proved wherever a motion goes.
 Judged judged_invariants(const Model& model, const std::vector<std::string>& names) {
-  const Verification verification = verify(model, kSecondsOfIntegrals);
+  const Verification verification = verify(anywhere(model), kSecondsOfIntegrals);
   Judged result;
   for (const std::string& name : names) {
     const bool proved = std::ranges::any_of(verification.proofs, [&](const Proof& proof) {
@@ -156,6 +157,7 @@ Indicators::Indicators(const Model& model, const Scene& scene, const PreparedSce
     : places_(places),
       method_(deviation_method(run, method)),
       settings_(settings),
+      rates_(run.specialisation.rhs),
       deviating_(with_deviation(model, scene, run)) {
   SpecialiseOptions what;
   what.keep_parameters = run.specialisation.parameters;
@@ -190,6 +192,8 @@ std::vector<std::string> Indicators::columns() const {
   return names;
 }
 
+std::string Indicators::reason(Status status) const { return reason_of_deviations(status); }
+
 std::string Indicators::fingerprint() const {
   std::string text = "indicators " + run_fingerprint(deviating_, method_, settings_);
   for (const std::string& name : proved_) text += "\n" + name;
@@ -220,11 +224,17 @@ Matrix first_directions(const Matrix& gradients, const Vector& field, Eigen::Ind
 
 }  // namespace
 
-PointResult Indicators::follow(const Module& module, std::size_t point,
+/// What serves one thread at a time, made where no other makes exact numbers.
+struct Indicators::ThreadsOwn {
+  Interpreter gradients;
+  Saltation saltation;
+};
+
+PointResult Indicators::follow(const Module& module, ThreadsOwn& own, std::size_t point,
                                const std::function<bool()>& give_up) const {
   const auto [start, parameters] = places_.at(point);
   const auto n = static_cast<Eigen::Index>(start.size());
-  const Interpreter gradient_values(gradients_->program.program);
+  const Interpreter& gradient_values = own.gradients;
   Vector x = Eigen::Map<const Vector>(start.data(), n);
   const Matrix gradients = gradients_->at(gradient_values, x, parameters);
   std::vector<double> values(columns().size(), kNoValue);
@@ -245,13 +255,17 @@ PointResult Indicators::follow(const Module& module, std::size_t point,
   settings.duration /= kIndicatorParts;
   settings.monitor = false;
   settings.give_up = give_up;
+  own.saltation.begin();
+  settings.after_step = own.saltation.hook(parameters, state.size());
   Watch watch;
   watch.begin(v);
   std::vector<double> before(static_cast<std::size_t>(level)), after(before.size());
   double half = kNoValue, steps = 0;
   for (int part = 1; part <= kIndicatorParts; ++part) {
     Vector next = x;
+    const Saltation::Sides sides = own.saltation.sides();
     for (Eigen::Index i = 0; i < level; ++i) {
+      own.saltation.begin(sides);
       std::copy_n(x.data(), n, state.begin());
       std::copy_n(v.unit.col(i).data(), n, state.begin() + n);
       const Trajectory piece = integrate(module, method_, settings, state, parameters);
@@ -304,10 +318,13 @@ PointResult Indicators::follow(const Module& module, std::size_t point,
 
 std::vector<PointResult> Indicators::run(const std::vector<std::size_t>& points, int threads,
                                          const std::function<bool()>& give_up) const {
-  return each_with_module(
-      deviating_, method_, points, threads, give_up,
-      {Status::stopped, std::vector<double>(columns().size(), kNoValue)},
-      [&](const Module& module, std::size_t point) { return follow(module, point, give_up); });
+  std::vector<ThreadsOwn> own(threads_for(points, threads),
+                              {Interpreter(gradients_->program.program), Saltation(rates_)});
+  return each_with_module(deviating_, method_, points, threads, give_up,
+                          {Status::stopped, std::vector<double>(columns().size(), kNoValue)},
+                          [&](const Module& module, std::size_t thread, std::size_t point) {
+                            return follow(module, own[thread], point, give_up);
+                          });
 }
 
 }  // namespace casimir

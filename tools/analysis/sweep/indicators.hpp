@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/program.hpp"
 #include "tools/analysis/run_request.hpp"
 #include "tools/analysis/sweep/grid_point.hpp"
 #include "tools/analysis/sweep/task.hpp"
@@ -42,6 +43,7 @@ class Indicators : public SweepTask {
   std::vector<std::string> columns() const override;
   std::string principal_column() const override { return "megno"; }
   std::string fingerprint() const override;
+  std::string reason(Status status) const override;
   const GridPoints& places() const override { return places_; }
   std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
                                const std::function<bool()>& give_up) const override;
@@ -53,12 +55,14 @@ class Indicators : public SweepTask {
 
  private:
   struct Gradients;
-  PointResult follow(const Module& module, std::size_t point,
+  struct ThreadsOwn;
+  PointResult follow(const Module& module, ThreadsOwn& own, std::size_t point,
                      const std::function<bool()>& give_up) const;
 
   const GridPoints& places_;
   const Method& method_;
   const Settings& settings_;
+  const Program& rates_;     ///< of the system
   PreparedScene deviating_;  ///< the system and one deviation
   std::vector<std::string> proved_, left_out_;
   std::unique_ptr<const Gradients> gradients_;

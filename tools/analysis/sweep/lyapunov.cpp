@@ -20,17 +20,20 @@ LyapunovExponents::LyapunovExponents(const Model& model, const Scene& scene,
     : places_(places),
       method_(deviation_method(run, method)),
       settings_(settings),
+      rates_(run.specialisation.rhs),
       deviating_(with_deviation(model, scene, run)) {}
 
 std::vector<std::string> LyapunovExponents::columns() const {
   return {"t", "exponent", "exponent_half", "steps"};
 }
 
+std::string LyapunovExponents::reason(Status status) const { return reason_of_deviations(status); }
+
 std::string LyapunovExponents::fingerprint() const {
   return "exponents " + run_fingerprint(deviating_, method_, settings_);
 }
 
-PointResult LyapunovExponents::follow(const Module& module, std::size_t point,
+PointResult LyapunovExponents::follow(const Module& module, Saltation& saltation, std::size_t point,
                                       const std::function<bool()>& give_up) const {
   const auto [start, parameters] = places_.at(point);
   const std::size_t n = start.size();
@@ -40,6 +43,8 @@ PointResult LyapunovExponents::follow(const Module& module, std::size_t point,
   settings.duration /= kPartsOfRun;
   settings.monitor = false;
   settings.give_up = give_up;
+  saltation.begin();
+  settings.after_step = saltation.hook(parameters, state.size());
   double growth = 0, half = kNoExponent, time = 0, steps = 0;
   for (int part = 0; part < kPartsOfRun; ++part) {
     const Trajectory piece = integrate(module, method_, settings, state, parameters);
@@ -61,10 +66,12 @@ PointResult LyapunovExponents::follow(const Module& module, std::size_t point,
 
 std::vector<PointResult> LyapunovExponents::run(const std::vector<std::size_t>& points, int threads,
                                                 const std::function<bool()>& give_up) const {
-  return each_with_module(
-      deviating_, method_, points, threads, give_up,
-      {Status::stopped, {kNoExponent, kNoExponent, kNoExponent, kNoExponent}},
-      [&](const Module& module, std::size_t point) { return follow(module, point, give_up); });
+  std::vector<Saltation> saltations(threads_for(points, threads), Saltation(rates_));
+  return each_with_module(deviating_, method_, points, threads, give_up,
+                          {Status::stopped, {kNoExponent, kNoExponent, kNoExponent, kNoExponent}},
+                          [&](const Module& module, std::size_t thread, std::size_t point) {
+                            return follow(module, saltations[thread], point, give_up);
+                          });
 }
 
 }  // namespace casimir

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tools/analysis/estimate/saltation.hpp"
 #include "tools/analysis/run_request.hpp"
 #include "tools/analysis/sweep/grid_point.hpp"
 #include "tools/analysis/sweep/task.hpp"
@@ -20,17 +21,19 @@ class LyapunovExponents : public SweepTask {
   std::vector<std::string> columns() const override;
   std::string principal_column() const override { return "exponent"; }
   std::string fingerprint() const override;
+  std::string reason(Status status) const override;
   const GridPoints& places() const override { return places_; }
   std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
                                const std::function<bool()>& give_up) const override;
 
  private:
-  PointResult follow(const Module& module, std::size_t point,
+  PointResult follow(const Module& module, Saltation& saltation, std::size_t point,
                      const std::function<bool()>& give_up) const;
 
   const GridPoints& places_;
   const Method& method_;
   const Settings& settings_;
+  const Program& rates_;     ///< of the system
   PreparedScene deviating_;  ///< the system and one deviation
 };
 

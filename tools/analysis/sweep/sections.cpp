@@ -54,7 +54,8 @@ PointResult Sections::cut(std::size_t point, int threads,
       domain_orbits(level, cutter, domain_of_motion(level, cutter), orbits_, points_);
   if (cutter.interrupted())
     return {Status::stopped, std::vector<double>(columns().size(), kNoIndicator)};
-  double crossings = 0, regular = 0, chaotic = 0, exponent = kNoIndicator, off = 0;
+  const double none = problem.jumps ? kNoIndicator : 0;
+  double crossings = 0, regular = none, chaotic = none, exponent = kNoIndicator, off = 0;
   Status status = Status::ok;
   for (const OrbitReport& orbit : orbits) {
     crossings += static_cast<double>(orbit.places.size());

@@ -32,6 +32,9 @@ class SweepTask {
   /// of the same text.
   virtual std::string fingerprint() const = 0;
 
+  /// Why a point could not be done to the end: a sentence.
+  virtual std::string reason(Status status) const { return reason_of(status); }
+
   /// Where it is done.
   virtual const GridPoints& places() const = 0;
 
