@@ -51,14 +51,18 @@ double guess_of(const SymmetricSectionRequest& request, const PreparedScene& run
   return value->to_double();
 }
 
-const char* words_of(SpectralStability stability) {
-  switch (stability) {
+const char* words_of(const SymmetricCycle& cycle) {
+  switch (cycle.stability()) {
     case SpectralStability::stable:
-      return "all on the unit circle to 1e-5: spectrally stable, as far as that tells";
+      return cycle.reciprocal
+                 ? "all on the unit circle to 1e-5: spectrally stable, as far as that tells"
+                 : "all but the one along the motion inside of the unit circle: attracting";
     case SpectralStability::unstable:
       return "not all on the unit circle: unstable";
     default:
-      return "not decided: rounding may have moved them off the unit circle";
+      return cycle.reciprocal
+                 ? "not decided: rounding may have moved them off the unit circle"
+                 : "not decided: some are on the unit circle, as far as rounding tells";
   }
 }
 
@@ -109,7 +113,7 @@ class SymmetricReport {
     for (const auto& m : cycle_.multipliers)
       fmt::print(" {:.6f}{}", m.real(),
                  std::abs(m.imag()) < 5e-7 ? "" : fmt::format("{:+.6f}i", m.imag()));
-    fmt::print("\n  {}\n", words_of(cycle_.stability()));
+    fmt::print("\n  {}\n", words_of(cycle_));
     for (const std::string& warning : warnings_) fmt::print("  warning: {}\n", warning);
   }
 

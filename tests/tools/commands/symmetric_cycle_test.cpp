@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/tools/program.hpp"
 
 namespace casimir::test {
@@ -89,6 +91,35 @@ TEST_F(SymmetricCycle, ThatTheSymmetryLeavesAloneHasAShorterPeriod) {
                                     R"(q1 = "1", q2 = "1", p1 = "0", p2 = "0")", "9.5");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "1/2 of T is a period of it already")) << outcome.out;
+}
+
+// r' = c r (r^2 - 1): the multiplier over half of the period is exp(2 Pi c).
+TEST_F(SymmetricCycle, OfAFlowWithoutABracketNeedNotBeOnTheUnitCircle) {
+  const auto stability = [&](const std::string& c) {
+    folder_.write("case.toml", fmt::format(R"toml(
+title = "cycle"
+[phase_space]
+variables = ["x", "y"]
+[equations]
+x = "-y + {0}*x*(x^2 + y^2 - 1)"
+y = "x + {0}*y*(x^2 + y^2 - 1)"
+[section]
+function = "y"
+plot = ["x", "y"]
+[[scene]]
+name = "default"
+initial = {{ x = "1", y = "1/1000" }}
+duration = "62/10"
+)toml",
+                                           c));
+    const Outcome outcome = run_in(
+        folder_, {"section", "./case.toml", "--symmetry", "x=-x", "--symmetry", "y=-y", "--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out).at("stable");
+  };
+  EXPECT_EQ(stability("10^(-6)"), nullptr);
+  EXPECT_EQ(stability("1/10"), false);
+  EXPECT_EQ(stability("(-1/10)"), true);
 }
 
 TEST_F(SymmetricCycle, OptionsThatAreNotUsedAreRefused) {

@@ -15,6 +15,7 @@
 #include "symbolic/model/given_functions.hpp"
 #include "tools/analysis/equilibria/eigenvalue_discs.hpp"
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/estimate/saltation.hpp"
 #include "tools/analysis/proof/proved_facts.hpp"
 #include "tools/analysis/section/periods.hpp"
 #include "tools/analysis/sweep/deviations.hpp"
@@ -141,6 +142,7 @@ class SymmetricNewton {
         deviating_(with_deviation(model, scene, run)),
         method_(*find_method("taylor")),
         code_(compile_for(deviating_, method_)),
+        saltation_(run.specialisation.rhs),
         symmetry_(symmetry),
         request_(request) {
     for (const GiNaC::ex& f : symmetry.image) {
@@ -236,8 +238,11 @@ class SymmetricNewton {
     return result;
   }
 
-  Settings settings(double duration) const {
+  Settings settings(double duration) {
     Settings settings;
+    saltation_.begin();
+    settings.after_step =
+        saltation_.hook(deviating_.parameters, deviating_.specialisation.states.size());
     settings.duration = duration;
     settings.rtol = tolerance_;
     settings.atol = tolerance_ * 1e-2;
@@ -306,7 +311,7 @@ class SymmetricNewton {
     });
   }
 
-  void close(const State& x, SymmetricCycle& result) const {
+  void close(const State& x, SymmetricCycle& result) {
     std::vector<double> state(x.data(), x.data() + x.size());
     state.resize(static_cast<std::size_t>(2 * x.size()), 0);
     const Trajectory run =
@@ -320,6 +325,7 @@ class SymmetricNewton {
   PreparedScene deviating_;
   const Method& method_;
   CompiledModule code_;
+  Saltation saltation_;
   const PhaseSymmetry& symmetry_;
   const SymmetricCycleRequest& request_;
   std::vector<GiNaC::ex> image_, slopes_;  ///< for the values of the parameters; row by row
@@ -360,6 +366,7 @@ SymmetricCycle symmetric_cycle(const Model& model, const Scene& scene, const Pre
       Eigen::Map<const State>(run.initial.data(), static_cast<Eigen::Index>(run.initial.size()));
   SymmetricCycle cycle = newton.solve(start, request.guess, request.tolerance);
   if (!cycle.found) return cycle;
+  cycle.reciprocal = model.poisson && verdict_on_jacobi(model, scene) == Verdict::proved;
   const State found =
       Eigen::Map<const State>(cycle.state.data(), static_cast<Eigen::Index>(cycle.state.size()));
   constexpr double kCoarser = 100;
@@ -377,6 +384,13 @@ SymmetricCycle symmetric_cycle(const Model& model, const Scene& scene, const Pre
 
 SpectralStability SymmetricCycle::stability() const {
   if (grows) return SpectralStability::unstable;
+  if (!reciprocal) {
+    const auto from_one = [](const std::complex<double>& m) { return std::abs(m - 1.); };
+    const auto along = std::ranges::min_element(multipliers, {}, from_one);
+    for (auto m = multipliers.begin(); m != multipliers.end(); ++m)
+      if (m != along && !(std::abs(*m) < 1 - kOnCircle)) return SpectralStability::undecided;
+    return multipliers.size() > 1 ? SpectralStability::stable : SpectralStability::undecided;
+  }
   const bool on_circle = std::ranges::all_of(multipliers, [](const std::complex<double>& m) {
     return std::abs(std::abs(m) - 1) < kOnCircle;
   });

@@ -38,15 +38,19 @@ struct SymmetricCycle {
   /// The n-th roots of the Floquet multipliers: the eigenvalues of the derivative of the flow over
   /// T/n behind the inverse of S.
   std::vector<std::complex<double>> multipliers;
-  bool grows = false;   ///< some of them are outside the unit circle, whatever rounding has done
+  bool grows = false;  ///< some of them are outside the unit circle, whatever rounding has done
+  /// The equations have a bracket that obeys the Jacobi identity, so that with each Floquet
+  /// multiplier its inverse is one: none is inside of the unit circle alone.
+  bool reciprocal = false;
   int rounds = 0;       ///< of Newton's method
   int order = 0;        ///< n
   int fixed_after = 0;  ///< so many times S takes the state to itself; n where no fewer do
 
-  /// Stable where all multipliers are on the unit circle to 1e-5: small changes grow more slowly
-  /// than exponentially, or by that much in T/n. (Of a multiple one they may still grow, as within
-  /// a family of cycles.) Undecided where some are off it and may be on it all the same: rounding
-  /// moves an m-fold one by the m-th root of its size.
+  /// Of reciprocal multipliers stable where all are on the unit circle to 1e-5: small changes grow
+  /// more slowly than exponentially, or by that much in T/n. (Of a multiple one they may still
+  /// grow, as within a family of cycles.) Of others where all but the one along the motion are
+  /// inside of it by more than that. Undecided where some are off it and may be on it all the same,
+  /// or on it and may be off: rounding moves an m-fold one by the m-th root of its size.
   SpectralStability stability() const;
   /// Why it may be no cycle, or no isolated one: sentences.
   std::vector<std::string> warnings() const;
