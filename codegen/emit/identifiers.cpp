@@ -23,18 +23,22 @@ constexpr auto kMoreKeywords = std::to_array<std::string_view>({"typeof", "restr
 
 constexpr auto kReserved = std::to_array<std::string_view>(
     {// macros of common headers and compilers
-     "NULL", "I", "EOF", "NAN", "INFINITY", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL", "errno", "BUFSIZ",
-     "MAXFLOAT", "math_errhandling", "E2BIG", "EACCES", "EAGAIN", "EBADF", "EBUSY", "ECHILD",
-     "EDEADLK", "EDOM", "EEXIST", "EFAULT", "EFBIG", "EILSEQ", "EINTR", "EINVAL", "EIO", "EISDIR",
-     "EMFILE", "EMLINK", "ENFILE", "ENODEV", "ENOENT", "ENOEXEC", "ENOLCK", "ENOMEM", "ENOSPC",
-     "ENOSYS", "ENOTDIR", "ENOTTY", "ENXIO", "EPERM", "EPIPE", "EPROTO", "ERANGE", "EROFS",
-     "ESPIPE", "ESRCH", "ESTALE", "ETIME", "EXDEV", "SIGABRT", "SIGFPE", "SIGILL", "SIGINT",
-     "SIGSEGV", "SIGTERM", "assert", "complex", "imaginary", "M_E", "M_LOG2E", "M_LOG10E", "M_LN2",
-     "M_LN10", "M_PI", "M_PI_2", "M_PI_4", "M_1_PI", "M_2_PI", "M_2_SQRTPI", "M_SQRT2", "M_SQRT1_2",
-     "FP_NAN", "FP_INFINITE", "FP_ZERO", "FP_NORMAL", "FP_SUBNORMAL", "DOMAIN", "SING", "OVERFLOW",
-     "UNDERFLOW", "PLOSS", "TLOSS", "major", "minor", "makedev", "unix", "linux", "i386", "stdin",
-     "stdout", "stderr", "min", "max", "near", "far", "small", "signals", "slots", "emit",
-     "foreach", "B0", "TRUE", "FALSE", "SUNTRUE", "SUNFALSE", "RCONST", "SUN_RCONST",
+     "NULL", "I", "EOF", "NAN", "INFINITY", "HUGE", "PATH_MAX", "NAME_MAX", "LINE_MAX", "SSIZE_MAX",
+     "TMP_MAX", "FOPEN_MAX", "FILENAME_MAX", "MB_LEN_MAX", "MB_CUR_MAX", "PIPE_BUF", "NZERO",
+     "TIME_UTC", "BIG_ENDIAN", "LITTLE_ENDIAN", "BYTE_ORDER", "SEEK_SET", "SEEK_CUR", "SEEK_END",
+     "SIG_IGN", "SIG_DFL", "SIG_ERR", "SIGKILL", "SIGUSR1", "SIGUSR2", "ELOOP", "EDQUOT", "SNAN",
+     "SNANF", "SNANL", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL", "errno", "BUFSIZ", "MAXFLOAT",
+     "math_errhandling", "E2BIG", "EACCES", "EAGAIN", "EBADF", "EBUSY", "ECHILD", "EDEADLK", "EDOM",
+     "EEXIST", "EFAULT", "EFBIG", "EILSEQ", "EINTR", "EINVAL", "EIO", "EISDIR", "EMFILE", "EMLINK",
+     "ENFILE", "ENODEV", "ENOENT", "ENOEXEC", "ENOLCK", "ENOMEM", "ENOSPC", "ENOSYS", "ENOTDIR",
+     "ENOTTY", "ENXIO", "EPERM", "EPIPE", "EPROTO", "ERANGE", "EROFS", "ESPIPE", "ESRCH", "ESTALE",
+     "ETIME", "EXDEV", "SIGABRT", "SIGFPE", "SIGILL", "SIGINT", "SIGSEGV", "SIGTERM", "assert",
+     "complex", "imaginary", "M_E", "M_LOG2E", "M_LOG10E", "M_LN2", "M_LN10", "M_PI", "M_PI_2",
+     "M_PI_4", "M_1_PI", "M_2_PI", "M_2_SQRTPI", "M_SQRT2", "M_SQRT1_2", "FP_NAN", "FP_INFINITE",
+     "FP_ZERO", "FP_NORMAL", "FP_SUBNORMAL", "DOMAIN", "SING", "OVERFLOW", "UNDERFLOW", "PLOSS",
+     "TLOSS", "major", "minor", "makedev", "unix", "linux", "i386", "stdin", "stdout", "stderr",
+     "min", "max", "near", "far", "small", "signals", "slots", "emit", "foreach", "B0", "TRUE",
+     "FALSE", "SUNTRUE", "SUNFALSE", "RCONST", "SUN_RCONST",
      // names of this code and of what it calls
      "x", "dx", "dxdt", "t", "p", "n", "J", "y", "ydot", "fy", "dfdt", "state", "values", "real",
      "Real", "State", "Derivative", "Matrix", "Vector", "System", "system", "parameters", "rhs",
@@ -76,15 +80,28 @@ constexpr auto kGlobalFunctions = std::to_array<std::string_view>(
      "uint",     "ulong",     "umask",     "uname",     "ungetc",   "unlink",      "usleep",
      "vfork",    "wait",      "write"});
 
+/// M_PI and the like with the letters that <math.h> puts behind them for other types: M_PIl,
+/// M_PIf64.
+bool is_constant_of_math(const std::string& name) {
+  constexpr auto kTypes = std::to_array<std::string_view>(
+      {"l", "f", "f16", "f32", "f64", "f128", "f32x", "f64x", "f128x"});
+  return name.starts_with("M_") && std::ranges::any_of(kTypes, [&](auto type) {
+           return name.ends_with(type) &&
+                  std::ranges::count(
+                      kReserved, std::string_view(name).substr(0, name.size() - type.size())) != 0;
+         });
+}
+
 /// Macros of common headers, of which there are more than a thousand, have capitals only and mostly
 /// begin with one of these: DBL_MAX, FP_ILOGB0.
 bool looks_like_macro(const std::string& name) {
+  if (is_constant_of_math(name)) return true;
   constexpr auto kBeginnings = std::to_array<std::string_view>(
-      {"CHAR_",    "CLOCKS_PER_", "DBL_",     "EXIT_",   "FLT_",    "FP_",     "INT_",
-       "INT8_",    "INT16_",      "INT32_",   "INT64_",  "INTMAX_", "INTPTR_", "LDBL_",
-       "LLONG_",   "LONG_M",      "PTRDIFF_", "RAND_",   "SCHAR_",  "SHRT_",   "SIZE_",
-       "UCHAR_",   "UINT_",       "UINT8_",   "UINT16_", "UINT32_", "UINT64_", "UINTMAX_",
-       "UINTPTR_", "ULLONG_",     "ULONG_",   "USHRT_",  "WCHAR_M", "WINT_M"});
+      {"CHAR_",  "CLOCKS_PER_", "DBL_",     "EXIT_",   "FLT_",    "FP_",      "INT_",     "INT8_",
+       "INT16_", "INT32_",      "INT64_",   "INTMAX_", "INTPTR_", "LDBL_",    "LLONG_",   "LONG_M",
+       "MATH_",  "HUGE_VAL_",   "PTRDIFF_", "RAND_",   "SCHAR_",  "SHRT_",    "SIZE_",    "UCHAR_",
+       "UINT_",  "UINT8_",      "UINT16_",  "UINT32_", "UINT64_", "UINTMAX_", "UINTPTR_", "ULLONG_",
+       "ULONG_", "USHRT_",      "WCHAR_M",  "WINT_M"});
   const bool loud = std::ranges::all_of(
       name, [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; });
   return loud && name.find('_') != std::string::npos &&

@@ -134,11 +134,12 @@ TEST(Literal, ConstantsAreHeldToTheLimitsOfTheirCase) {
 
 TEST(Names, AreNoMacrosOfCommonHeaders) {
   Names names;
-  for (const char* macro : {"DBL_MAX", "FLT_EPSILON", "INT32_MAX", "RAND_MAX", "FP_ILOGB0", "EDOM",
-                            "MAXFLOAT", "math_errhandling", "CLOCKS_PER_SEC"})
+  for (const char* macro :
+       {"DBL_MAX", "FLT_EPSILON", "INT32_MAX", "RAND_MAX", "FP_ILOGB0", "EDOM", "M_PIl", "M_LN2f64",
+        "MATH_ERRNO", "MAXFLOAT", "math_errhandling", "CLOCKS_PER_SEC"})
     EXPECT_EQ(names.unique(macro), std::string(macro) + "_");
-  for (const char* own :
-       {"SIGMA", "EPS", "OMEGA_1", "KEPLER_2D", "INERTIA", "E1", "INTEGRAL_A", "TIME_0", "LONG_1"})
+  for (const char* own : {"SIGMA", "EPS", "OMEGA_1", "KEPLER_2D", "INERTIA", "E1", "INTEGRAL_A",
+                          "TIME_0", "LONG_1", "M_1", "M_total"})
     EXPECT_EQ(names.unique(own), own);
 }
 
