@@ -42,6 +42,7 @@ class Saltation {
 
   /// Another motion begins, or one that was on these sides.
   void begin(const Sides& sides = {});
+  /// Where the motion is, for `begin`.
   const Sides& sides() const { return sides_; }
 
   /// A step of the states and the deviations behind them, of the same size each.
