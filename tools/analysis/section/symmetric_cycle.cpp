@@ -356,6 +356,20 @@ PhaseSymmetry phase_symmetry(const Model& model, const Scene& scene,
   return result;
 }
 
+namespace {
+
+/// Of two variables whose rates have no divergence the multipliers are 1, along the motion, and,
+/// by Liouville's formula, 1.
+bool keeps_areas(const Model& model, const Scene& scene) {
+  if (model.variables.size() != 2) return false;
+  GiNaC::ex divergence = 0;
+  for (std::size_t i = 0; i < 2; ++i)
+    divergence += model.at_parameters(model.field[i], scene).diff(model.variables[i]);
+  return divergence.expand().is_zero();
+}
+
+}  // namespace
+
 SymmetricCycle symmetric_cycle(const Model& model, const Scene& scene, const PreparedScene& run,
                                const PhaseSymmetry& symmetry,
                                const SymmetricCycleRequest& request) {
@@ -366,7 +380,8 @@ SymmetricCycle symmetric_cycle(const Model& model, const Scene& scene, const Pre
       Eigen::Map<const State>(run.initial.data(), static_cast<Eigen::Index>(run.initial.size()));
   SymmetricCycle cycle = newton.solve(start, request.guess, request.tolerance);
   if (!cycle.found) return cycle;
-  cycle.reciprocal = model.poisson && verdict_on_jacobi(model, scene) == Verdict::proved;
+  cycle.reciprocal = (model.poisson && verdict_on_jacobi(model, scene) == Verdict::proved) ||
+                     keeps_areas(model, scene);
   const State found =
       Eigen::Map<const State>(cycle.state.data(), static_cast<Eigen::Index>(cycle.state.size()));
   constexpr double kCoarser = 100;

@@ -39,8 +39,9 @@ struct SymmetricCycle {
   /// T/n behind the inverse of S.
   std::vector<std::complex<double>> multipliers;
   bool grows = false;  ///< some of them are outside the unit circle, whatever rounding has done
-  /// The equations have a bracket that obeys the Jacobi identity, so that with each Floquet
-  /// multiplier its inverse is one: none is inside of the unit circle alone.
+  /// The equations have a bracket that obeys the Jacobi identity, or two variables and no
+  /// divergence, so that with each Floquet multiplier its inverse is one: none is inside of the
+  /// unit circle alone.
   bool reciprocal = false;
   int rounds = 0;       ///< of Newton's method
   int order = 0;        ///< n
