@@ -290,7 +290,7 @@ PointResult Indicators::follow(const Module& module, ThreadsOwn& own, std::size_
                late = part > 3 * kIndicatorParts / 4;
     if (!early && !late) continue;
     const std::vector<double> stretches = v.stretches();
-    const double share = early ? 4. / kIndicatorParts : 4. / kIndicatorParts;
+    constexpr double share = 4. / kIndicatorParts;
     for (std::size_t i = 0; i < stretches.size(); ++i)
       (early ? before : after)[i] += stretches[i] * share;
   }
