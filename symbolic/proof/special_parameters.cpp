@@ -18,57 +18,12 @@
 #include "symbolic/proof/lasting_minor.hpp"
 #include "symbolic/proof/parameter_minors.hpp"
 #include "symbolic/proof/parameter_sets.hpp"
+#include "symbolic/proof/quotient_rows.hpp"
 
 namespace casimir {
 namespace {
 
 using Indices = std::vector<std::size_t>;
-
-/// Which variables of the ring occur in a matrix.
-std::vector<bool> used_variables(const PolynomialRows& rows) {
-  std::vector<bool> used;
-  for (const auto& row : rows) {
-    for (const Polynomial& p : row) {
-      if (p.is_constant()) continue;
-      used.resize(p.ring().size());
-      for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || p.uses(i);
-    }
-  }
-  return used;
-}
-
-/// Whether a generator of the ring occurs.
-bool has_generators(const FunctionRing& ring, const std::vector<Polynomial>& row) {
-  const std::vector<bool> used = used_variables({row});
-  return std::find(used.begin() +
-                       static_cast<std::ptrdiff_t>(std::min(used.size(), ring.symbols().size())),
-                   used.end(), true) != used.end();
-}
-
-/// Rows that are quotients of polynomials of the symbols, modulo a prime.
-class QuotientsModulo {
- public:
-  /// Knows no ranks where there are other functions.
-  QuotientsModulo(const FunctionRing& ring, const PolynomialRows& numerators,
-                  const std::vector<Polynomial>& denominators) {
-    const auto others = [&](const auto& row) { return has_generators(ring, row); };
-    if (others(denominators) || std::any_of(numerators.begin(), numerators.end(), others)) return;
-    numerators_.emplace(numerators);
-    for (const Polynomial& d : denominators) denominators_.emplace_back(PolynomialRows{{d}});
-  }
-
-  /// Whether they have values at the point and at least that rank: then they do at almost all
-  /// points of each family of points that this one is in, if that is given by polynomials.
-  bool have_rank(std::size_t rank, const std::vector<GiNaC::ex>& point) const {
-    return numerators_ && numerators_->rank_at(point) >= rank &&
-           std::all_of(denominators_.begin(), denominators_.end(),
-                       [&](const MatrixModulo& d) { return d.rank_at(point) == 1; });
-  }
-
- private:
-  std::optional<MatrixModulo> numerators_;
-  std::vector<MatrixModulo> denominators_;
-};
 
 class SpecialParameters {
  public:
@@ -442,8 +397,9 @@ void SpecialParameters::look_at_pairs() {
   };
   add_modular(minors_);
   // At numbers that no functions have together a minor says nothing of the others.
-  if (std::none_of(rows_.begin(), rows_.end(),
-                   [&](const auto& row) { return has_generators(ring_, row); }))
+  if (quotients_.are_known() && std::none_of(rows_.begin(), rows_.end(), [&](const auto& row) {
+        return has_generators(ring_, row);
+      }))
     add_modular(neighbours);
   // Where a condition excludes one form, it excludes both together.
   std::vector<bool> excluded;
@@ -498,24 +454,6 @@ void SpecialParameters::look_at_set(ParameterEquations set) {
   add(text + " != 0");
 }
 
-/// Puts numerators that are reduced by all relations into the rows, and returns the factors of what
-/// they were divided by; nothing where these are polynomials already.
-std::optional<std::vector<Polynomial>> clear_denominators(const FunctionRing& ring,
-                                                          PolynomialRows& rows) {
-  std::optional<std::vector<Polynomial>> denominators;
-  for (std::vector<Polynomial>& row : rows) {
-    if (!has_generators(ring, row)) continue;
-    if (!denominators) denominators.emplace();
-    for (const Polynomial& p : row) {
-      const Polynomial bottom = ring.lowest_terms(p).second;
-      for (const auto& [f, exponent] : bottom.factors())
-        if (!f.is_constant()) denominators->push_back(f);
-    }
-    row = ring.common_numerators(std::move(row));
-  }
-  return denominators;
-}
-
 }  // namespace
 
 std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows& rows,
@@ -528,7 +466,7 @@ std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows&
     denominators = clear_denominators(prover.ring(), numerators);
   } catch (const TooLarge&) {  // it is for almost all values then, as without them
   }
-  const QuotientsModulo quotients(prover.ring(), numerators,
+  const QuotientsModulo quotients(prover, numerators,
                                   denominators.value_or(std::vector<Polynomial>()));
   std::vector<std::string> conditions = SpecialParameters(prover, rows, rank, quotients).run();
   if (!denominators) return conditions;
