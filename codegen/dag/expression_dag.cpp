@@ -136,19 +136,37 @@ Scaled Dag::convert(const GiNaC::ex& expression) {
 
 namespace {
 
-/// Of a square root the radicand as the square that it is, if it is one that is multiplied out.
-GiNaC::ex radicand(const GiNaC::ex& base, const cln::cl_RA& exponent) {
+/// A product in two parts: even powers, and all that is not.
+struct EvenPowers {
+  GiNaC::ex even = 1, rest = 1;
+};
+
+/// Of a broken power the base with the squares in it apart, multiplied out as it may be: the root
+/// of x^2 + x^4 is |x| sqrt(1 + x^2), which turns at 0 as a root that does not vanish never does.
+EvenPowers even_powers(const GiNaC::ex& base) {
   constexpr std::size_t kMostTerms = 30;
-  if (cln::denominator(exponent) != 2 || !GiNaC::is_a<GiNaC::add>(base) ||
-      base.nops() > kMostTerms || !base.info(GiNaC::info_flags::rational_polynomial))
-    return base;
-  const GiNaC::ex split = GiNaC::sqrfree(base);
-  const auto is_square = [](const GiNaC::ex& factor) {
-    return GiNaC::is_a<GiNaC::power>(factor) ? factor.op(1).info(GiNaC::info_flags::even)
-                                             : factor.info(GiNaC::info_flags::positive);
+  const auto square_free = [](const GiNaC::ex& factor) -> GiNaC::ex {
+    const bool may_hide = GiNaC::is_a<GiNaC::add>(factor) && factor.nops() <= kMostTerms &&
+                          factor.info(GiNaC::info_flags::rational_polynomial);
+    return may_hide ? GiNaC::sqrfree(factor) : factor;
   };
-  if (!GiNaC::is_a<GiNaC::mul>(split)) return is_square(split) ? split : base;
-  return std::all_of(split.begin(), split.end(), is_square) ? split : base;
+  GiNaC::ex split = 1;
+  if (GiNaC::is_a<GiNaC::mul>(base))
+    for (const GiNaC::ex& factor : base) split *= square_free(factor);
+  else
+    split = square_free(base);
+  EvenPowers parts;
+  const auto put = [&](const GiNaC::ex& factor) {
+    const bool is_even =
+        GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::even);
+    (is_even ? parts.even : parts.rest) *= factor;
+  };
+  if (GiNaC::is_a<GiNaC::mul>(split))
+    for (const GiNaC::ex& factor : split) put(factor);
+  else
+    put(split);
+  // As it is written, where there is no square in it.
+  return parts.even.is_equal(1) ? EvenPowers{1, base} : parts;
 }
 
 /// The modulus of one of Jacobi's functions, to many digits where it is a number.
@@ -183,12 +201,18 @@ Scaled Dag::convert_new(const GiNaC::ex& e) {
     return GiNaC::is_a<GiNaC::add>(e) ? sum(parts) : product(parts);
   }
   if (GiNaC::is_a<GiNaC::power>(e)) {
-    if (GiNaC::is_a<GiNaC::numeric>(e.op(1)))
-      return power(convert(radicand(e.op(0), exact_value(e.op(1)))), exact_value(e.op(1)));
+    if (GiNaC::is_a<GiNaC::numeric>(e.op(1))) return convert_power(e.op(0), exact_value(e.op(1)));
     return call(Op::exp, {product({convert(e.op(1)), call(Op::log, {convert(e.op(0))})})});
   }
   if (GiNaC::is_a<GiNaC::function>(e)) return convert_function(e);
   throw ModelError("cannot compute '" + expression_text(e) + "'");
+}
+
+Scaled Dag::convert_power(const GiNaC::ex& base, const cln::cl_RA& exponent) {
+  if (is_integer(exponent)) return power(convert(base), exponent);
+  const EvenPowers parts = even_powers(base);
+  const Scaled rest = power(convert(parts.rest), exponent);
+  return parts.even.is_equal(1) ? rest : product({power(convert(parts.even), exponent), rest});
 }
 
 Scaled Dag::convert_function(const GiNaC::ex& e) {

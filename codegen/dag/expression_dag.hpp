@@ -99,6 +99,7 @@ class Dag {
 
  private:
   Scaled convert_new(const GiNaC::ex& expression);
+  Scaled convert_power(const GiNaC::ex& base, const cln::cl_RA& exponent);
   Scaled convert_function(const GiNaC::ex& expression);
   Scaled primitive_sum(std::vector<Scaled> terms);
   Scaled assemble(cln::cl_RA coefficient, std::vector<Factor> factors);

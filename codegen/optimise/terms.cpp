@@ -160,28 +160,48 @@ class Builder {
     return result;
   }
 
-  /// x / |x| is sign(x), which has a value where x is zero, and so has x^3 / |x| = x |x|.
+  /// x / |x| and |x| / x are sign(x), which has a value where x is zero, and so has x^3 / |x| =
+  /// x |x|.
   Monomial joined_moduli(const Monomial& all) {
     Monomial result = all;
     for (const VariablePower& l : all) {
-      const Variable& variable = system_.variables[static_cast<std::size_t>(l.variable)];
-      if (variable.kind != Variable::Kind::function || variable.function != Op::div) continue;
-      const int modulus = variable.arguments[0];
-      const Variable& inner = system_.variables[static_cast<std::size_t>(modulus)];
-      if (inner.kind != Variable::Kind::function || inner.function != Op::abs) continue;
-      const int base = inner.arguments[0];
-      const int power = exponent_of(result, base);
+      const int divisor = argument_of(l.variable, Op::div);
+      if (divisor < 0) continue;
+      const int inside = argument_of(divisor, Op::abs);
+      const int base = inside >= 0 ? inside : divisor;
+      const int other = inside >= 0 ? base : modulus_in(result, base);
+      const int power = other >= 0 ? exponent_of(result, other) : 0;
       if (power == 0) continue;
-      const int rest = power - l.exponent;
-      std::erase_if(result, [&](const VariablePower& other) {
-        return other.variable == l.variable || other.variable == base;
+      std::erase_if(result, [&](const VariablePower& factor) {
+        return factor.variable == l.variable || factor.variable == other;
       });
-      const bool odd = std::min(power, l.exponent) % 2 == 1;
-      if (rest < 0) result = multiply(result, {{l.variable, -rest}});
-      if (rest > (odd ? 1 : 0)) result = multiply(result, {{base, odd ? rest - 1 : rest}});
-      if (odd) result = multiply(result, {{rest > 0 ? modulus : function(Op::sign, {base}), 1}});
+      const int rest = power - l.exponent;
+      // Of an odd number of signs one is left, and joins a factor that there is.
+      const bool odd = std::min(power, l.exponent) % 2 == 1, joins = odd && rest > 0;
+      const auto put = [&](int variable, int exponent) {
+        if (exponent > 0) result = multiply(result, {{variable, exponent}});
+      };
+      put(l.variable, -rest);
+      put(other, joins ? rest - 1 : rest);
+      if (joins)
+        put(inside >= 0 ? divisor : base, 1);
+      else if (odd)
+        put(function(Op::sign, {base}), 1);
     }
     return result;
+  }
+
+  /// The argument of this function, or -1 where the variable is something else.
+  int argument_of(int variable, Op op) const {
+    const Variable& v = system_.variables[static_cast<std::size_t>(variable)];
+    return v.kind == Variable::Kind::function && v.function == op ? v.arguments[0] : -1;
+  }
+
+  /// The factor |base|, or -1.
+  int modulus_in(const Monomial& monomial, int base) const {
+    for (const VariablePower& l : monomial)
+      if (argument_of(l.variable, Op::abs) == base) return l.variable;
+    return -1;
   }
 
   static int exponent_of(const Monomial& monomial, int variable) {

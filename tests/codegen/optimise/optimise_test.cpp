@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "codegen/optimise/factor.hpp"
 #include "codegen/optimise/terms.hpp"
@@ -253,6 +255,41 @@ TEST_F(Optimise, SquaresOfSineAndCosineAreJoined) {
        {pow(sin(s(1)), 2) - pow(cos(s(1)), 2), pow(sin(s(1)), 2) + pow(cos(s(2)), 2),
         pow(cosh(s(1)), 2) + pow(sinh(s(1)), 2), pow(sin(s(1)), 2) + 2 * pow(cos(s(1)), 2)})
     EXPECT_EQ(count_operations(optimise({other})).calls, 2) << other;
+}
+
+// Written so, whoever follows the signs of a motion sees that these jump, or turn, where x = 0.
+TEST_F(Optimise, SquaresComeOutOfRoots) {
+  const ex x = s(0), y = s(1);
+  const auto uses = [](const Program& program, Op op) {
+    return std::ranges::count(program.code, op, &Instruction::op);
+  };
+  struct Root {
+    ex value;
+    Op of_x;
+    double expected;
+  };
+  const double a = -0.75, b = 1.5;
+  const std::vector<Root> roots{
+      {x / sqrt(x * x + pow(x, 4)), Op::sign, -1 / std::sqrt(1 + a * a)},
+      {sqrt(x * x) / x, Op::sign, -1},
+      {pow(x * x, ex(3) / 2) / x, Op::abs, a * -a},
+      {pow(x * x, ex(1) / 2) / pow(x, 3), Op::sign, -1 / (a * a)},
+      {x / pow(pow(x, 4) * y, ex(1) / 4), Op::sign, -std::pow(b, -0.25)},
+      {y / sqrt(x * x * y + x * x * y * y), Op::abs, b / (-a * std::sqrt(b + b * b))},
+      {sqrt(pow(x, 2) - pow(x, 3) * y), Op::abs, -a * std::sqrt(1 - a * b)},
+      {sqrt((x * x + pow(x, 4)) * (1 + y * y)), Op::abs,
+       -a * std::sqrt((1 + a * a) * (1 + b * b))}};
+  for (const Root& root : roots) {
+    const Program program = optimise({root.value});
+    EXPECT_EQ(uses(program, root.of_x), 1) << root.value;
+    std::vector<double> inputs(program.inputs.size());
+    inputs[0] = a;
+    inputs[1] = b;
+    EXPECT_NEAR(evaluate(program, inputs)[0], root.expected, 1e-14) << root.value;
+  }
+  // The twins: no factor is a square.
+  for (const ex& other : {sqrt(x * x + pow(x, 3) + y), sqrt(x * y), sqrt(x * x + y * y)})
+    EXPECT_EQ(uses(optimise({other}), Op::abs), 0) << other;
 }
 
 TEST_F(Optimise, DeadCodeGoesAway) {

@@ -56,6 +56,18 @@ TEST(Saltation, OfABallIsThatOfItsParabolas) {
   }
 }
 
+// The same ball, where a root has the sign.
+TEST(Saltation, SeesJumpsOfRoots) {
+  for (const char* const sign : {"q/sqrt(q^2)", "sqrt(q^2)/q", "q*sqrt(1 + q^2)/sqrt(q^2 + q^4)"}) {
+    const Model ball = equations("\"q\", \"p\"", "q = \"p\"\np = \"-" + std::string(sign) + "\"",
+                                 "q = \"1/2\", p = \"0\"");
+    const Trajectory run = deviated(ball, {1, 0}, 1.25);
+    ASSERT_EQ(run.status, Status::ok) << sign << ": " << run.reason;
+    EXPECT_NEAR(run.state[2], 0.5, 1e-7) << sign;
+    EXPECT_NEAR(run.state[3], -2, 1e-7) << sign;
+  }
+}
+
 // T(a) = 4 sqrt(2 a): after n periods the deviation (1, 0) is (1, 4 n / sqrt(2 a)).
 TEST(Saltation, AddsUpOverPeriods) {
   const Model ball = equations("\"q\", \"p\"", kBall, "q = \"1/2\", p = \"0\"");

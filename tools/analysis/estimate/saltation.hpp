@@ -23,8 +23,8 @@ namespace casimir {
 /// that is not zero on either side, and one such place at a time; and that a step ends just behind
 /// it. Where one of these does not hold, what becomes of the deviations is not known.
 ///
-/// Jumps are those of sign and of the angle of a point at its cut. Others, as of u/sqrt(u^2 v), are
-/// not seen.
+/// Jumps are those of sign, which roots of squares in a program are made of, and of the angle of a
+/// point at its cut. Others, as of exp(log(u^2)/2)/u, are not seen.
 ///
 /// Holds exact numbers, so it is made where no other thread makes any; one object serves one thread
 /// at a time.
