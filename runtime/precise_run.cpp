@@ -226,10 +226,12 @@ class PreciseRunner {
     record_samples(series, next);
     if (mark_ && !passed(time_, *mark_) && !passed(*mark_, next))
       run_.at_mark = rounded(at(series, *mark_));
+    record_places(series, next);
     for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = value_at(series[i], h);
     follow_angles(series, next);
     time_ = next;
     ++run_.steps;
+    record_way();
     look_for_undefined();
     record_sizes();
     follow_invariants();
@@ -339,6 +341,35 @@ class PreciseRunner {
       run_.log2_sizes[i] = std::max(run_.log2_sizes[i], state_[i].log2());
   }
 
+  /// The state at the end of every step, or of every second, fourth, .. in longer runs.
+  void record_way() {
+    constexpr std::size_t kMost = 4096;
+    if (!problem_.keep_way || run_.steps % way_stride_ != 0) return;
+    if (run_.way.size() == kMost) {
+      for (std::size_t k = 1; 2 * k < kMost; ++k) {
+        run_.way_times[k] = std::move(run_.way_times[2 * k]);
+        run_.way[k] = std::move(run_.way[2 * k]);
+      }
+      run_.way_times.resize(kMost / 2);
+      run_.way.resize(kMost / 2);
+      way_stride_ *= 2;
+      if (run_.steps % way_stride_ != 0) return;
+    }
+    run_.way_times.push_back(to_cln(time_, format_));
+    run_.way.push_back(rounded(state_));
+  }
+
+  /// The states at the places in a step that ends at the time `next`.
+  void record_places(const std::vector<LongSeries>& series, const BigFloat& next) {
+    while (run_.way.size() < problem_.places.size()) {
+      const cln::cl_F& place = problem_.places[run_.way.size()];
+      const BigFloat time(place);
+      if (passed(time, next)) return;
+      run_.way_times.push_back(place);
+      run_.way.push_back(rounded(at(series, time)));
+    }
+  }
+
   /// The samples up to the next time; at the start the state itself.
   void record_samples(const std::vector<LongSeries>& series, const BigFloat& next) {
     if (!cln::plusp(problem_.sample_every)) return;
@@ -430,6 +461,7 @@ class PreciseRunner {
   double place_ = 0.5;        ///< within a step, where it was looked at last
   double largest_tried_ = 0;  ///< log2 of the largest state within any trial of a step
   cln::cl_I sample_ = 0;
+  unsigned long long way_stride_ = 1;
   PreciseRun run_;
 };
 

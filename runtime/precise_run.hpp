@@ -25,6 +25,9 @@ struct PreciseProblem {
   std::function<bool(double share)> give_up = {};
   std::optional<cln::cl_R> end = {};   ///< in the place of the duration
   std::optional<cln::cl_R> mark = {};  ///< a time whose state is wanted
+  bool keep_way = false;               ///< whether the ends of steps are kept, see PreciseRun::way
+  /// Times, in order, of which the states are wanted; these are kept instead of the ends of steps.
+  std::vector<cln::cl_F> places = {};
   /// To begin, where a state has to be rounded, on the other side of its exact value: what the
   /// rounding comes to is seen beside a run that begins at the nearest numbers.
   bool from_other_side = false;
@@ -46,6 +49,10 @@ struct PreciseRun {
   std::optional<cln::cl_F> singular_time = {};  ///< where the solution ends, known that well
   std::vector<cln::cl_F> at_mark = {};          ///< empty if the run did not get there
   std::vector<double> log2_sizes = {};          ///< largest |x_i| after any step
+  /// States on the way: at the ends of steps, of a few thousand at most, or at the places asked
+  /// for.
+  std::vector<cln::cl_F> way_times = {};
+  std::vector<std::vector<cln::cl_F>> way = {};
   std::vector<PreciseInvariant> invariants = {};
   std::vector<cln::cl_F> sample_times = {};
   std::vector<std::vector<cln::cl_F>> samples = {};

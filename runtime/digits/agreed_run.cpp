@@ -36,11 +36,14 @@ double largest(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
 
+/// What is so many digits below all other components is zero, or nothing that matters.
+int far_below(int digits) { return 2 * digits + 200; }
+
 /// The same for the component of two end states that differs most. One is zero to that many digits,
 /// and not compared, if it is below the last digit both of the state and of its own largest value
 /// along the run; or below far more digits of whatever there was.
 double log10_difference(const PreciseRun& a, const PreciseRun& b, int digits) {
-  const int far = 2 * digits + 200;
+  const int far = far_below(digits);
   std::vector<double> sizes, state;
   for (const double size : b.log2_sizes) sizes.push_back(kLog10Of2 * size);
   for (std::size_t i = 0; i < b.state.size(); ++i)
@@ -52,6 +55,23 @@ double log10_difference(const PreciseRun& a, const PreciseRun& b, int digits) {
     if (!zero) difference = std::max(difference, log10_difference(a.state[i], b.state[i]));
   }
   return difference;
+}
+
+/// log10 of the largest distance of two runs at the places of one of them, each component beside
+/// the largest that it comes to. Those that are nothing but rounding of the others are left out,
+/// and what grows from that, as where the ends are compared.
+double largest_on_the_way(const PreciseRun& a, const PreciseRun& b, int working, int digits) {
+  constexpr int kOfRounding = 5;
+  const double below = std::min(working - kOfRounding, far_below(digits));
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < a.log2_sizes.size(); ++i)
+    sizes.push_back(kLog10Of2 * std::max(a.log2_sizes[i], b.log2_sizes[i]));
+  double result = kNoDifference;
+  for (std::size_t k = 0; k < std::min(a.way.size(), b.way.size()); ++k)
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      if (sizes[i] >= largest(sizes) - below && a.way[k][i] != b.way[k][i])
+        result = std::max(result, log10_of(a.way[k][i] - b.way[k][i]) - sizes[i]);
+  return result;
 }
 
 int whole_digits(double log10_error, int most) {
@@ -167,10 +187,11 @@ class Search {
     const int more = std::max(kMoreDigits, wanted_ / 16);
     AgreedRun next;
     PreciseProblem checking = problem_;
-    checking.from_other_side = true;
+    checking.from_other_side = checking.keep_way = true;
     next.check = run(checking, working);
     if (stopped_) return keep_stopped(std::move(next.check));
-    checking.from_other_side = false;
+    checking.from_other_side = checking.keep_way = false;
+    checking.places = next.check.way_times;
     if (next.check.status == Status::max_steps) {
       checking.max_steps = 0;
       checking.end = next.check.time;
@@ -197,6 +218,10 @@ class Search {
     } else if (next.checked && log10_difference(next.check.time, next.run.time) < -working) {
       next.log10_error = log10_difference(next.check, next.run, most);
     }
+    // Half of the digits on the way: what hides behind that much of a large part of a state would
+    // have to be seen in the other half at the end.
+    const double apart = next.checked ? largest_on_the_way(next.check, next.run, working, most) : 0;
+    if (apart > -most / 2.) next.log10_error = std::max(next.log10_error, 0.);
     // Two runs that are equal by chance still have no more digits than they were made with.
     next.log10_error = std::max(next.log10_error, -static_cast<double>(next.run.digits));
     next.digits = whole_digits(next.log10_error, most);

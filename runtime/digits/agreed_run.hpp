@@ -8,7 +8,9 @@
 namespace casimir {
 
 /// A run and another one with fewer digits, of lower order, that was made to check it. What both
-/// agree in is right: they share neither steps nor order nor rounding.
+/// agree in is right, where they also keep together all the way: they share neither steps nor order
+/// nor rounding. Runs that leave a motion by their rounding, as one beside an unstable rest, do so
+/// at different times, and may end in the same place.
 struct AgreedRun {
   PreciseRun run;    ///< the better one
   PreciseRun check;  ///< its state is at the same time; empty where `checked` is false

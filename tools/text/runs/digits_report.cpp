@@ -97,8 +97,11 @@ std::string DigitsReport::reason() const {
 }
 
 std::string DigitsReport::advice() const {
+  if (status() == Status::no_convergence && agreed.digits == 0)
+    return "nothing is known of the state there; a shorter --duration may leave digits";
   if (status() == Status::no_convergence)
-    return "the digits shown are right; a shorter --duration leaves more of them";
+    return fmt::format("{} digits are right; a shorter --duration leaves more of them",
+                       agreed.digits);
   return tools::advice(status());
 }
 
