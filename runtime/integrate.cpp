@@ -221,6 +221,7 @@ void run_kernel(const Module& module, const Method& method, const Settings& s,
                          !module.watch()->signed_divisors().empty())) {
     look.emplace(*module.watch(), trajectory.state.size(), parameters, trajectory.state.data());
     look->end_before_poles();
+    look->land_further(s.land_further);
     run.look = [](void* looker, const casimir_step* trial) {
       return (*static_cast<StepLook*>(looker))(*trial);
     };

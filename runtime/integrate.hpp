@@ -58,6 +58,8 @@ struct Settings {
   /// > 0: a method of our own begins anew after this time, so that its steps are others than those
   /// of a run without.
   double begin_anew = 0;
+  /// Steps end so many times as far behind the branches of |u|, sign(u) and angles.
+  double land_further = 1;
   double longest_step = 0;           ///< > 0: of a method of CVODE
   unsigned long long max_steps = 0;  ///< 0: no limit
   double sample_every = 0;           ///< > 0: states at these times, from the dense output

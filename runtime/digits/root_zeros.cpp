@@ -6,14 +6,6 @@
 #include "runtime/evaluate.hpp"
 
 namespace casimir {
-namespace {
-
-/// Of the largest value of a radicand in a step. Places in it are known to 10^(-16) of it, and a
-/// radicand that touches zero is about the square of that at the nearest. Steps beside one that
-/// only comes near zero are as short as it is near.
-constexpr double kZero = 1e-27;
-
-}  // namespace
 
 RootZeros::RootZeros(const Program& rhs, std::vector<double> parameters)
     : states_(rhs.outputs.size()) {
@@ -45,7 +37,7 @@ const std::vector<double>& RootZeros::radicands(double part, const StateAt& stat
   return values_;
 }
 
-std::optional<double> RootZeros::zero_in(const StateAt& state_at) {
+std::optional<double> RootZeros::zero_in(const StateAt& state_at, double zero) {
   constexpr std::size_t kPlaces = 17;
   std::vector<std::vector<double>> sampled(kPlaces);
   std::vector<double> highest(values_.size(), 0);
@@ -59,9 +51,9 @@ std::optional<double> RootZeros::zero_in(const StateAt& state_at) {
     for (std::size_t i = 0; i < kPlaces; ++i) {
       const std::size_t before = i > 0 ? i - 1 : i, behind = i + 1 < kPlaces ? i + 1 : i;
       if (sampled[before][k] < sampled[i][k] || sampled[behind][k] < sampled[i][k]) continue;
-      if (sampled[i][k] <= kZero * highest[k]) return place_of(i);
+      if (sampled[i][k] <= zero * highest[k]) return place_of(i);
       const double place = least_between(place_of(before), place_of(behind), k, state_at);
-      if (radicands(place, state_at)[k] <= kZero * highest[k]) return place;
+      if (radicands(place, state_at)[k] <= zero * highest[k]) return place;
     }
   }
   return std::nullopt;

@@ -24,11 +24,17 @@ class RootZeros {
 
   /// Writes the state at a part of a step, from 0 to 1, and returns the time.
   using StateAt = std::function<double(double part, double* x)>;
+  /// Of the largest value of a radicand in a step. Places in it are known to 10^(-16) of it, and a
+  /// radicand that touches zero is about the square of that at the nearest. Steps beside one that
+  /// only comes near zero are as short as it is near.
+  static constexpr double kZero = 1e-27;
   /// The part of a step at which a radicand is zero; nothing where none is.
-  std::optional<double> zero_in(const StateAt& state_at);
+  /// \param zero  what is, of its largest value in the step
+  std::optional<double> zero_in(const StateAt& state_at, double zero = kZero);
+  /// Their values at a part of a step.
+  const std::vector<double>& radicands(double part, const StateAt& state_at);
 
  private:
-  const std::vector<double>& radicands(double part, const StateAt& state_at);
   double least_between(double low, double high, std::size_t which, const StateAt& state_at);
 
   std::size_t states_;

@@ -99,8 +99,16 @@ double StepLook::landing(const casimir_step& trial, const StepWatch::Watched& wa
     }
   }
   // Far enough for rounding not to undo it; where there is no jump, that may be farther.
-  const double enough = watched.kind == StepWatch::Kind::side ? kBehind * size : rounding;
+  const double enough =
+      further_ * (watched.kind == StepWatch::Kind::side ? kBehind * size : rounding);
+  // No farther than that, as the slope there says: two runs, one of which lands further, are to
+  // tell how much it matters.
+  constexpr double kAside = 1e-5, kBeyondEnough = 1.01;
+  const double aside = std::min(kAside, (far - behind) / 2);
+  const double rise =
+      (value(trial, watched, behind + aside) - value(trial, watched, behind)) * sign / aside;
   double beyond = 4 * std::numeric_limits<double>::epsilon() * behind;
+  if (rise > 0) beyond = std::max(beyond, kBeyondEnough * enough / rise);
   for (; behind + beyond < far; beyond *= 4) {
     if (value(trial, watched, behind + beyond) * sign > enough) return behind + beyond;
   }

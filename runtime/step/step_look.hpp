@@ -37,6 +37,11 @@ class StepLook {
   /// Whether that is why the run could not go on.
   bool at_pole() const { return at_pole_; }
 
+  /// Steps end so many times as far behind branches: what the wrong branch does there is so many
+  /// times as large, and shows in the difference of two runs.
+  void land_further(double times) { further_ = times; }
+  double lands_further() const { return further_; }
+
   /// The numbers of the run have no largest one, as those of many digits.
   void no_largest_number() { beyond_ = std::numeric_limits<double>::infinity(); }
 
@@ -126,6 +131,7 @@ class StepLook {
   /// .. and below: e to this power is beyond all doubles, and what the equations do with infinity
   /// is the same whatever the exponent.
   double beyond_ = 711;
+  double further_ = 1;
   Values places_ = {};
   double shift_ = 0.5;
   bool ends_at_poles_ = false, at_pole_ = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/methods.hpp"
+#include "tests/tools/analysis/assessed.hpp"
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/run/assessed_run.hpp"
@@ -232,15 +233,6 @@ struct Lemniscate {
     return std::hypot(run.state[0] - x, run.state[1] - std::sqrt(1 - std::pow(x, 4)));
   }
 };
-
-ErrorEstimate estimate_of(const Model& model, const Scene& scene, const char* name,
-                          const Settings& settings, Trajectory* trajectory, double budget) {
-  const PreparedScene run = prepare(model, scene);
-  const Method& method = *find_method(name);
-  const CompiledModule compiled = compile_for(run, method);
-  *trajectory = integrate(compiled.module, method, settings, run.initial, run.parameters);
-  return assess(run, compiled, method, settings, *trajectory, budget);
-}
 
 // Errors of single steps grow until the end, also where there is no time for a second run.
 TEST(ErrorEstimate, OfLongRunsHasTheGrowthOfTheirErrors) {

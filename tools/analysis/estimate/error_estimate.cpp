@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "runtime/step/step_watch.hpp"
-#include "symbolic/error.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
+#include "tools/analysis/estimate/neighbour_runs.hpp"
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/closed_form_error.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
@@ -15,15 +15,9 @@ namespace casimir {
 namespace {
 
 constexpr double kRoundoff = 0x1p-53;
-/// Relative changes of a state whose growth is measured. The first that stays small is taken: where
-/// a change grows to the size of the state itself, it says too little about smaller ones.
-constexpr double kChanges[] = {0x1p-26, 0x1p-36, 0x1p-46};
-constexpr double kSmallGrowth = 0.05;
 /// Rounding errors that grow to this size leave no digits to speak of.
 constexpr double kSpoiled = 1e-3;
 constexpr double kSixDigits = 1e-6;
-/// Of the run that is repeated: no whole number of periods of anything between them.
-constexpr double kSamplesOfRun = 61.8;
 /// Seconds of a run that is repeated, and of one that may have passed something over.
 constexpr double kLongToRepeat = 3, kLongestToRepeat = 10;
 constexpr double kCrossCheckTolerance = 1e-10;
@@ -31,182 +25,10 @@ constexpr unsigned long long kCrossCheckSteps = 20000;
 /// What is narrower than a thousandth of the run CVODE may step over.
 constexpr double kLeastCrossCheckSteps = 1000, kMostCrossCheckSteps = 16000;
 
-double distance(const std::vector<double>& a, const std::vector<double>& b,
-                const std::vector<double>& sizes) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(a[i] - b[i]) / sizes[i]);
-  }
-  return largest;
-}
-
-/// The part of the tolerance that is left to a run that is repeated.
-constexpr double kHundredth = 0.01;
-
-/// Series continue behind their last coefficient, so that steps of many tolerances are much the
-/// same and err alike: their runs are repeated with a tolerance at which they have other
-/// coefficients.
-double part_of_tolerance(const Method& method, const Settings& settings) {
-  constexpr double kFine = 1e-12;
-  if (!method.series || !(settings.rtol > 0) || settings.fixed_step > 0) return kHundredth;
-  return std::min(kHundredth, kFine / settings.rtol);
-}
-
-/// More steps than a run with this part of the tolerance has: one that takes so many follows
-/// something else than the first, such as the rounding of the equations, and may come to no end.
-unsigned long long steps_of_repeated(const Method& method, const Trajectory& trajectory,
-                                     double part) {
-  constexpr double kHighOrder = 8, kTimes = 3, kAlways = 10000;
-  const double order = method.order > 0 ? method.order : kHighOrder;
-  const auto first = static_cast<double>(trajectory.steps + trajectory.rejected);
-  return static_cast<unsigned long long>(kAlways + kTimes * std::pow(part, -1 / order) * first);
-}
-
-/// Runs beside the one that is assessed.
-class Neighbours {
- public:
-  Neighbours(const PreparedScene& run, const CompiledModule& compiled, const Method& method,
-             const Settings& settings, const Trajectory& trajectory,
-             const std::vector<double>& sizes)
-      : run_(run), compiled_(compiled), method_(method), tight_(settings), sizes_(sizes) {
-    const double part = part_of_tolerance(method, settings);
-    if (tight_.max_steps == 0) tight_.max_steps = steps_of_repeated(method, trajectory, part);
-    // Only a run that is watched goes on where products of states are beyond all numbers.
-    constexpr double kHuge = 1e130;
-    tight_.monitor = std::ranges::max(sizes) > kHuge;
-    tight_.sample_every = std::abs(settings.duration) / kSamplesOfRun;
-    tight_.invariant_changes = nullptr;
-    tight_.rtol = std::max(settings.rtol * part, 2 * kLeastTolerance);
-    tight_.atol = settings.atol * part;
-    if (part < kHundredth) refined_ = kHundredth / part;
-    tight_.fixed_step = settings.fixed_step / 2;
-    // At the least tolerance the steps would be the same ones.
-    constexpr double kOdd = 0.0618;
-    tight_.begin_anew = settings.fixed_step > 0 ? 0 : kOdd * std::abs(settings.duration);
-  }
-
-  /// With a hundredth of the tolerance, or as little as series need. By an implicit method near
-  /// what rounding allows, where no equations are solved to such a tolerance, with a hundred times
-  /// as much of it: then the difference is an error of the other run.
-  /// \return  whether it reached the end
-  bool begin() {
-    better_ = integrate(compiled_.module, method_, tight_, run_.initial, run_.parameters);
-    if (better_.status != Status::ok && better_.status != Status::stopped && refined_ > 0) {
-      // Noise of the equations may be in the way of a much finer tolerance.
-      tight_.rtol *= refined_;
-      tight_.atol *= refined_;
-      better_ = integrate(compiled_.module, method_, tight_, run_.initial, run_.parameters);
-    }
-    constexpr double kNearRounding = 1e-11, kLooser = 1e4;
-    const bool too_tight = method_.implicit && tight_.rtol < kNearRounding &&
-                           !(tight_.fixed_step > 0) && better_.status != Status::stopped;
-    if (better_.status != Status::ok && too_tight) {
-      tight_.rtol *= kLooser;
-      tight_.atol *= kLooser;
-      better_ = integrate(compiled_.module, method_, tight_, run_.initial, run_.parameters);
-    }
-    return better_.status == Status::ok;
-  }
-  const Trajectory& better() const { return better_; }
-
-  /// How far the samples are from those of a run with a tighter tolerance.
-  std::optional<double> distance_of_samples(const Trajectory& trajectory, double every) const {
-    Settings again = tight_;
-    again.sample_every = every;
-    const Trajectory other =
-        integrate(compiled_.module, method_, again, run_.initial, run_.parameters);
-    if (other.status != Status::ok || other.samples.size() != trajectory.samples.size())
-      return std::nullopt;
-    double largest = 0;
-    for (std::size_t k = 0; k < other.samples.size(); ++k)
-      largest = std::max(largest, distance(other.samples[k], trajectory.samples[k], sizes_));
-    return largest;
-  }
-
-  /// How far the end is moved where each state of the scene that has been rounded begins at the
-  /// next double on the other side of its exact value: by more than what small changes grow to
-  /// where the rounded start rests and the exact one does not. Infinite where that run fails;
-  /// nothing where no state was rounded.
-  std::optional<double> moved_by_rounding() const {
-    std::vector<double> moved = run_.initial;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      if (run_.rounding[i] != 0)
-        moved[i] = std::nextafter(moved[i], run_.rounding[i] > 0 ? HUGE_VAL : -HUGE_VAL);
-    if (moved == run_.initial) return std::nullopt;
-    const Trajectory other = integrate(compiled_.module, method_, tight_, moved, run_.parameters);
-    if (other.status != Status::ok) return HUGE_VAL;
-    return distance(other.state, better_.state, sizes_);
-  }
-
-  /// How many times a relative change of a state has grown at the end; nothing if a run fails.
-  std::optional<double> growth_of_state(std::size_t j) const {
-    return growth([&](double change) {
-      std::vector<double> moved = run_.initial;
-      moved[j] += change * sizes_[j];
-      return integrate(compiled_.module, method_, tight_, moved, run_.parameters);
-    });
-  }
-
-  /// How far the end is moved by the rounding of a parameter at run time: by what a larger change
-  /// grows to, or by the next doubles on both sides, where these move it far more: cos(a) of a
-  /// giant a turns over and over within that change. Infinite where a run fails.
-  double moved_by_parameter(std::size_t j) const {
-    const double rounding = std::abs(run_.parameter_rounding[j] / run_.parameters[j]);
-    constexpr double kFarMore = 30, kRoundings = 1000;
-    double nearby = 0;
-    for (const double side : {-HUGE_VAL, HUGE_VAL}) {
-      const auto other = with_parameter(j, std::nextafter(run_.parameters[j], side));
-      if (!other || other->status != Status::ok) return HUGE_VAL;
-      nearby = std::max(nearby, distance(other->state, better_.state, sizes_));
-    }
-    const auto grown = growth([&](double change) {
-      Trajectory none;
-      none.status = Status::non_finite;
-      return with_parameter(j, run_.parameters[j] * (1 + change)).value_or(none);
-    });
-    const double foreseen = grown ? *grown * rounding : 0;
-    const bool is_more = nearby > kFarMore * std::max(foreseen, kRoundings * kRoundoff);
-    return !grown || is_more ? std::max(nearby, foreseen) : foreseen;
-  }
-
- private:
-  /// Nothing where the equations have no value at that parameter.
-  std::optional<Trajectory> with_parameter(std::size_t j, double value) const {
-    PreparedScene moved = run_;  // where nothing is compiled, the module holds the parameters
-    moved.parameters[j] = value;
-    try {
-      return integrate(compile_for(moved, method_).module, method_, tight_, moved.initial,
-                       moved.parameters);
-    } catch (const ModelError&) {
-      return std::nullopt;
-    }
-  }
-
-  template <class NeighbourAt>
-  std::optional<double> growth(const NeighbourAt& neighbour_at) const {
-    double largest = 0;
-    for (const double change : kChanges) {
-      const Trajectory neighbour = neighbour_at(change);
-      if (neighbour.status != Status::ok) return std::nullopt;
-      const double apart = distance(neighbour.state, better_.state, sizes_);
-      largest = std::max(largest, apart / change);
-      if (apart < kSmallGrowth) break;
-    }
-    return largest;
-  }
-
-  const PreparedScene& run_;
-  const CompiledModule& compiled_;
-  const Method& method_;
-  Settings tight_;
-  double refined_ = 0;  ///< how many times a hundredth of the tolerance is what was taken
-  const std::vector<double>& sizes_;
-  Trajectory better_;
-};
-
 /// Where Taylor series get nowhere because the equations are stiff: by runs of the method itself,
 /// which see the growth at the end only.
-std::optional<Conditioning> conditioning_at_end(const Neighbours& neighbours, std::size_t states) {
+std::optional<Conditioning> conditioning_at_end(const NeighbourRuns& neighbours,
+                                                std::size_t states) {
   Conditioning result;
   result.growth = {{0, 1}};
   for (std::size_t j = 0; j < states; ++j) {
@@ -293,19 +115,34 @@ CrossCheck cross_check(const PreparedScene& run, const Method& method, const Set
   const double local = std::max(100., static_cast<double>(other.steps)) * own.rtol +
                        std::max(100., static_cast<double>(trajectory.steps)) * settings.rtol;
   const double explained = std::min(0.1, growth * local);
-  result.distance = distance(other.state, trajectory.state, sizes);
+  result.distance = relative_distance(other.state, trajectory.state, sizes);
   if (result.distance > explained && !check->series) {
     // It is CVODE that may have stepped over something: its word is taken for it with more steps.
     own.longest_step = std::abs(trajectory.time) / kMostCrossCheckSteps;
     own.max_steps = 4 * kCrossCheckSteps;
     const Trajectory again = integrate(module, *check, own, run.initial, run.parameters);
     if (again.status == Status::ok) {
-      const double apart = distance(again.state, trajectory.state, sizes);
+      const double apart = relative_distance(again.state, trajectory.state, sizes);
       if (apart <= explained) result.distance = apart;
     }
   }
   if (!(result.distance > explained)) result.distance = 0;
   return result;
+}
+
+/// How far runs are apart on the way though both end in the same place. It is looked at where that
+/// takes next to no time, and where changes of the size of local errors become as large as the
+/// state, and die out.
+std::optional<double> parted(const NeighbourRuns& neighbours, const Settings& settings,
+                             const ErrorEstimate& trust, double share_of_budget) {
+  constexpr double kOfConstantStep = 1e-4, kDiesOut = 0.1, kApart = 1e-3, kNextToNothing = 0.02;
+  const double local =
+      settings.fixed_step > 0 ? kOfConstantStep : std::max(kRoundoff, settings.rtol);
+  const bool may_be =
+      trust.on_the_way * local > kSpoiled && trust.conditioning < kDiesOut * trust.on_the_way;
+  if (!(trust.error_estimate < kApart) || !(may_be || share_of_budget < kNextToNothing))
+    return std::nullopt;
+  return neighbours.parted_on_the_way(kApart);
 }
 
 /// The sizes of the states at both ends, where they are smaller than on the way.
@@ -331,7 +168,7 @@ bool grows(const PreparedScene& run, const std::vector<double>& sizes) {
 
 /// What rounding the start does to the end, where that is far more than the growth of small changes
 /// says; else 0.
-double unforeseen(const Neighbours& neighbours, const PreparedScene& run,
+double unforeseen(const NeighbourRuns& neighbours, const PreparedScene& run,
                   const std::optional<Conditioning>& flow, const std::vector<double>& sizes) {
   constexpr double kFarMore = 30, kRoundings = 1000, kAll = 1;
   if (!flow) return 0;
@@ -408,7 +245,7 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     if (const std::optional<double> error = closed_form_error(run, sizes))
       return assess_closed_form(run, compiled, *error, method, settings, trajectory, sizes);
   const std::size_t n = run.initial.size();
-  Neighbours neighbours(run, compiled, method, settings, trajectory, sizes);
+  NeighbourRuns neighbours(run, compiled, method, settings, trajectory, sizes);
   // Polynomials of low degree hide nothing from a step.
   const StepWatch* const watch = compiled.module.watch();
   const double* const numbers = run.parameters.empty() ? nullptr : run.parameters.data();
@@ -439,11 +276,11 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
   trust.input_rounding += moved_by_duration(run, compiled, settings, trajectory, sizes);
   if (repeated && trajectory.seconds < budget)
     trust.input_rounding = std::max(trust.input_rounding, unforeseen(neighbours, run, flow, sizes));
-  trust.error_estimate =
-      trust.input_rounding + (repeated ? distance(neighbours.better().state, trajectory.state,
-                                                  end_sizes(run, trajectory)) +
-                                             growth * kRoundoff
-                                       : estimate_without_repeat(growth, settings, trajectory));
+  trust.error_estimate = trust.input_rounding +
+                         (repeated ? relative_distance(neighbours.better().state, trajectory.state,
+                                                       end_sizes(run, trajectory)) +
+                                         growth * kRoundoff
+                                   : estimate_without_repeat(growth, settings, trajectory));
   if (repeated) {
     const auto [rounding, overflow] =
         error_of_rates(run, compiled.module, neighbours.better(), end_sizes(run, trajectory));
@@ -463,6 +300,8 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     trust.error_estimate = std::max(trust.error_estimate, check.distance);
   }
   trust.unconfirmed = trust.unconfirmed || (may_hide && !has_time && short_of_end);
+  if (repeated) trust.parted = parted(neighbours, settings, trust, trajectory.seconds / budget);
+  if (trust.parted) trust.error_estimate = std::max(trust.error_estimate, *trust.parted);
   trust.beyond_double = !(trust.on_the_way * kRoundoff < kSpoiled);
   // Which way the motion took was decided by rounding: all of the state is in doubt, which the
   // growth up to the end does not show.

@@ -25,6 +25,12 @@ struct ErrorEstimate {
   /// Up to when rounding leaves six digits, where it does not to the end.
   std::optional<double> six_digits_until;
   std::optional<double> followed;  ///< the growth beyond this time is extrapolated
+  /// How far a run with a tighter tolerance is from this one on the way, where both end in the same
+  /// place: which way the motion took was decided by the errors of the steps.
+  std::optional<double> parted;
+  /// The time from which on more than one solution may go on, of which this is one: see
+  /// PartingSolutions.
+  std::optional<double> one_of_several;
 
   /// Whether changes that no double holds are made on the way and do not show at the end: which way
   /// the motion took was decided by rounding.

@@ -16,6 +16,7 @@
 #include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/estimate/near_singular.hpp"
+#include "tools/analysis/estimate/parting_solutions.hpp"
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/closed_form_error.hpp"
 #include "tools/analysis/run/drift_check.hpp"
@@ -210,6 +211,7 @@ class Judge {
         if (smoothness) smoothness->see(t, x);
       };
     parts_->watch(settings);
+    parting_.emplace(run_).watch(settings);
     if (smoothness || singular_->divides() || undefined_->looks())
       settings.give_up = [this, smoothness, limit = settings.give_up] {
         return singular_->goes_to_and_fro() || !undefined_->why().empty() ||
@@ -271,6 +273,8 @@ class Judge {
     if (trajectory.status == Status::ok) doubt_small_states();
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings,
                            drifts.which.empty() ? trajectory : without_drifts(drifts.which));
+    result_.trust.one_of_several = parting_->time();
+    if (parting_->time()) result_.trust.error_estimate = std::max(result_.trust.error_estimate, 1.);
     constexpr double kWrongByOverflow = 1e-6;
     if (trajectory.status == Status::ok && result_.trust.overflow > kWrongByOverflow) {
       trajectory.status = Status::non_finite;
@@ -314,6 +318,7 @@ class Judge {
   std::optional<NearSingular> singular_;
   std::optional<CancelledParts> parts_;
   std::optional<UndefinedSteps> undefined_;
+  std::optional<PartingSolutions> parting_;
   /// While `auto` looks whether its first choice is right.
   std::shared_ptr<SmoothnessWatch*> smoothness_ = std::make_shared<SmoothnessWatch*>(nullptr);
   AssessedRun result_;

@@ -107,6 +107,7 @@ void go_on(const Module& module, const casimir_run& asked, double* x, casimir_ou
   if (asked.look && module.watch()) {
     look.emplace(*module.watch(), static_cast<std::size_t>(module.dimension()), asked.parameters,
                  x);
+    look->land_further(static_cast<const StepLook*>(asked.looker)->lands_further());
     watched.look = [](void* looker, const casimir_step* trial) {
       return (*static_cast<StepLook*>(looker))(*trial);
     };

@@ -45,7 +45,18 @@ std::vector<std::string> warnings_of_end(const ErrorEstimate& trust, bool consta
         trust.conditioning, six_digits(trust),
         static_cast<int>(20 + std::log10(trust.conditioning))));
   }
-  if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
+  if (trust.one_of_several) {
+    warnings.push_back(fmt::format(
+        "at t = {:.6g} the argument of a root comes to zero, where the equations are not Lipschitz "
+        "continuous: more than one solution may go on from there, and this is one of them",
+        *trust.one_of_several));
+  } else if (trust.parted) {
+    warnings.push_back(fmt::format(
+        "on the way a run with {} is {:.0e} of the size of the state away from this one, though "
+        "both end in the same place: which way the motion took is decided by the errors of the "
+        "steps; --digits 30 follows it",
+        constant_step ? "half the step" : "a tighter tolerance", *trust.parted));
+  } else if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
     const bool by_rounding = trust.input_rounding > trust.error_estimate / 2;
     warnings.push_back(
         fmt::format("the end state may be off by {:.0e} of its size{}", trust.error_estimate,

@@ -1,0 +1,58 @@
+// Places from which more than one solution goes on.
+#include "tools/analysis/estimate/parting_solutions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/tools/analysis/systems.hpp"
+#include "tools/analysis/solve.hpp"
+
+namespace casimir::test {
+namespace {
+
+Solution solved(const Model& model, const char* method, double tolerance) {
+  SolveOptions options;
+  options.method = method;
+  if (tolerance > 0) options.run.tolerance = tolerance;
+  return solve(model, model.scene("default"), options);
+}
+
+// x = (1 - t/2)^2 comes to 0 at t = 2, and may stay, or go on as -(t - c)^2/4 from any c >= 2.
+TEST(PartingSolutions, AreNotAnsweredWithOneOfThem) {
+  for (const char* const rate : {"-sqrt(abs(x))", "-sqrt(sqrt(x^2))"}) {
+    const Model model = one_equation(rate, "3");
+    for (const auto& [method, tolerance] :
+         {std::pair{"auto", 0.}, {"radau9", 1e-10}, {"gauss8", 1e-8}, {"dop853", 1e-8}}) {
+      const Solution motion = solved(model, method, tolerance);
+      EXPECT_TRUE(!motion.ok() || motion.trust().error_estimate >= 1) << rate << ' ' << method;
+      if (motion.ok() && motion.trust().one_of_several)
+        EXPECT_NEAR(*motion.trust().one_of_several, 2, 1e-2) << method;
+    }
+  }
+}
+
+// The twins: a motion that crosses the place has the argument for its time, and one that ends
+// before it does not come there.
+TEST(PartingSolutions, NeedAPlaceThatIsNotCrossed) {
+  const Model crossed = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"-1\"\n"
+      "y = \"sqrt(abs(x))\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { x = \"1\", y = \"0\" }\nduration = \"2\"\n");
+  for (const char* const method : {"auto", "radau9", "dop853"}) {
+    const Solution motion = solved(crossed, method, 1e-10);
+    ASSERT_TRUE(motion.ok()) << method;
+    EXPECT_FALSE(motion.trust().one_of_several) << method;
+    EXPECT_NEAR(motion.trajectory().state[1], 4. / 3, 1e-6) << method;
+  }
+  const Solution slow = solved(one_equation("-x*sqrt(abs(x))", "10^6"), "auto", 1e-10);
+  ASSERT_TRUE(slow.ok());
+  EXPECT_FALSE(slow.trust().one_of_several);
+  const Solution before = solved(one_equation("-sqrt(abs(x))", "3/2"), "auto", 0);
+  ASSERT_TRUE(before.ok());
+  EXPECT_FALSE(before.trust().one_of_several);
+  EXPECT_NEAR(before.trajectory().state[0], 1. / 16, 1e-12);
+}
+
+}  // namespace
+}  // namespace casimir::test
