@@ -38,7 +38,8 @@ bool split(const std::string& text, HexParts& parts) {
   if (!std::ranges::all_of(parts.digits, is_digit)) return false;
   const char *const first = text.data() + mark + 1, *const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(first, last, parts.exponent);
-  return error == std::errc() && end == last && std::abs(parts.exponent) <= kMostExponent;
+  return error == std::errc() && end == last && parts.exponent >= -kMostExponent &&
+         parts.exponent <= kMostExponent;
 }
 
 }  // namespace

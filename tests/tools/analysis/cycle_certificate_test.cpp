@@ -66,6 +66,26 @@ TEST(CycleCertificates, OfAnOscillationIsChecked) {
   EXPECT_TRUE(check_cycle(read.cycles.back()).holds());
 }
 
+TEST(CycleCertificates, SayForWhichLevelTheyHold) {
+  const CheckedCycle checked = check_cycle(oscillation());
+  ASSERT_EQ(checked.level_names, std::vector<std::string>{"H"});
+  ASSERT_EQ(checked.levels.size(), 1U);
+  EXPECT_LT(checked.levels[0].low, cln::cl_RA(1) / 2);
+  EXPECT_GT(checked.levels[0].high, cln::cl_RA(1) / 2);
+}
+
+TEST(CycleCertificates, ThatAreNotLookedThroughAreNotRefuted) {
+  const CheckedCycle checked = check_cycle(oscillation(), [] { return true; });
+  EXPECT_FALSE(checked.holds());
+  EXPECT_TRUE(checked.stopped) << checked.reason;
+}
+
+TEST(CycleCertificates, NumbersBeyondAllExponentsAreMalformed) {
+  for (const char* const number : {"0x1p-9223372036854775808", "0x1p9223372036854775807"})
+    EXPECT_FALSE(is_traced_number(number)) << number;
+  EXPECT_TRUE(is_traced_number("0x1p-1074"));
+}
+
 /// With stiffness 4 every orbit of the level closes after 2 pi: none is alone.
 TEST(CycleCertificates, AMemberOfAFamilyHasNone) {
   EXPECT_FALSE(certify_cycle("two", oscillators("4"), "x", {0.5}));

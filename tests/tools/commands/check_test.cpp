@@ -37,6 +37,10 @@ TEST(CheckCommand, ChecksWhatIntegrateWrites) {
     // A parameter with a range is a state at rest.
     const bool ranged = !more.empty() && more.front() == "--param";
     EXPECT_EQ(checked.at("enclosure").size(), ranged ? 7U : 6U);
+    // Each start is said: the theorem is about all of these.
+    const bool of_box = !more.empty() && more.front() == "--initial-radius";
+    EXPECT_EQ(checked.contains("start_radii"), of_box || ranged);
+    if (of_box) EXPECT_EQ(number(checked.at("start_radii").begin().value()), 1e-6);
   }
 }
 
@@ -67,6 +71,28 @@ TEST(CheckCommand, WhatIsFalseIsRefutedWithItsStep) {
 }
 
 // The verification of what was enclosed takes many times as long as the run: the limit is for both.
+// What is checked is what the equations say, to the end of each line.
+TEST(CheckCommand, ShowsLinesWhole) {
+  const Folder folder;
+  folder.write("blank.toml", "[phase_space]\nvariables = [\"x\"]\n[equations]\nx = \"-x" +
+                                 std::string(500, ' ') +
+                                 "*2\"\n[[scene]]\nname = \"s\"\ninitial = { x = \"1\" }\n"
+                                 "duration = \"1\"\n");
+  ASSERT_EQ(run_in(folder, {"integrate", "./blank.toml", "--validated", "--certificate", "c.json"})
+                .status,
+            0);
+  std::string text = file_text(folder.path() / "c.json");
+  std::string body = text.substr(0, text.rfind(",\n\"digest\""));
+  const std::string written = R"(x = \"-2*x)";
+  const std::size_t rate = body.find(written);
+  ASSERT_NE(rate, std::string::npos) << body.substr(0, 400);
+  body.replace(rate, written.size(), R"(x = \"-x)" + std::string(500, ' ') + "*2");
+  folder.write("blank.json", with_digest(body));
+  const Outcome shown = run_in(folder, {"check", "blank.json"});
+  ASSERT_EQ(shown.status, 0) << shown.err << shown.out;
+  EXPECT_NE(shown.out.find("*2"), std::string::npos) << shown.out;
+}
+
 TEST(CheckCommand, TheTimeLimitEndsTheVerificationBeforeACertificateIsWritten) {
   const Folder folder;
   const Outcome late = run_in(folder, {"integrate", "kovalevskaya", "--validated", "--duration",

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "symbolic/algebra/number_text.hpp"
@@ -288,11 +289,14 @@ HorseshoeCertificate horseshoe_of(const Json& json, const CertificateReader& rea
   const Json& coverings = reader.entry(json, "", "coverings");
   if (!coverings.is_array()) reader.malformed("/coverings", "a list of pairs");
   const auto last = static_cast<int>(sets.size()) - 1;
+  std::set<decltype(certificate.coverings)::value_type> listed;
   for (std::size_t k = 0; k < coverings.size(); ++k) {
     const std::string path = fmt::format("/coverings/{}", k);
     if (!coverings[k].is_array() || coverings[k].size() != 2) reader.malformed(path, "a pair");
     certificate.coverings.emplace_back(reader.whole(coverings[k][0], path + "/0", 0, last),
                                        reader.whole(coverings[k][1], path + "/1", 0, last));
+    if (!listed.insert(certificate.coverings.back()).second)
+      reader.malformed(path, "a covering that was not listed before");
   }
   return certificate;
 }

@@ -27,6 +27,7 @@ namespace {
 /// Why the certificate of a cycle does not hold: a sentence.
 struct CycleRefuted {
   std::string reason;
+  bool stopped = false;
 };
 
 /// The equations of a cycle, and what is asked of them.
@@ -118,6 +119,13 @@ class CycleEquations {
     return result;
   }
 
+  /// The value of a function of the level, and what is near it.
+  static RationalInterval level(const std::string& text) {
+    const cln::cl_RA value = traced_number(text);
+    const cln::cl_RA by = cln::abs(value) / cln::expt_pos(cln::cl_RA(2), 52);
+    return {value - by, value + by};
+  }
+
   /// Start and end are one point of the level: the functions have not jumped on the way between
   /// them, which `check_trace` has seen to.
   void check_closed(const BallMatrix& box, const BallMatrix& end) const {
@@ -201,12 +209,7 @@ class CycleEquations {
     const auto exact = cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
     return {exact, exact};
   }
-  /// The number, and what is near it.
-  static void set_level(arb_ptr ball, const std::string& text) {
-    const cln::cl_RA value = traced_number(text);
-    const cln::cl_RA by = cln::abs(value) / cln::expt_pos(cln::cl_RA(2), 52);
-    set_interval(ball, {value - by, value + by});
-  }
+  static void set_level(arb_ptr ball, const std::string& text) { set_interval(ball, level(text)); }
 
   std::size_t levels() const { return model_.integrals.size(); }
   const std::vector<int>& closing() const { return certificate_.closing; }
@@ -228,6 +231,7 @@ BallMatrix column_of(const std::vector<RationalInterval>& values, std::size_t co
 TraceCheck checked_trace(const ValidatedProblem& problem, const RunTrace& trace,
                          const TraceCheckSettings& settings, const char* which) {
   TraceCheck check = check_trace(problem, trace, settings);
+  if (check.fault == TraceFault::stopped) throw CycleRefuted{"the time limit was reached", true};
   if (check.fault == TraceFault::not_smooth)
     throw CycleRefuted{
         "a function of the level is not certain to be smooth along the orbit: its value may jump"};
@@ -264,6 +268,10 @@ void verify(const CycleCertificate& certificate, const TraceCheckSettings& setti
   const std::size_t n = equations.states();
   for (const GiNaC::symbol& x : equations.model().variables) result.names.push_back(x.get_name());
   check_form(certificate, n);
+  for (const NamedExpression& integral : equations.model().integrals)
+    result.level_names.push_back(integral.name);
+  for (const std::string& level : certificate.levels)
+    result.levels.push_back(CycleEquations::level(level));
   TraceCheckSettings with_derivatives = settings;
   with_derivatives.derivatives = true;
   with_derivatives.smooth = equations.level_functions_with_branches();
@@ -311,6 +319,7 @@ CheckedCycle check_cycle(const CycleCertificate& certificate,
     verify(certificate, settings, result);
   } catch (const CycleRefuted& refuted) {
     result.reason = refuted.reason;
+    result.stopped = refuted.stopped;
   } catch (const NotCertified&) {
     result.reason = "the functions of the level or the plane are not certain to be smooth there";
   }

@@ -31,11 +31,15 @@ struct CycleCertificate {
 
 /// What came of the certificate of a cycle.
 struct CheckedCycle {
-  std::string reason;  ///< why it is not proved: a sentence; empty where it is
+  std::string reason;    ///< why it is not proved: a sentence; empty where it is
+  bool stopped = false;  ///< that is why: nothing is said of the rest
   /// Exactly one point of the box, with exactly one time, solves the equations; it is within these.
   std::vector<RationalInterval> state;
   RationalInterval period{0, 0};   ///< after which the orbit is at its start again
   std::vector<std::string> names;  ///< of the states
+  /// The functions of the level, and their values: it is proved for each value of these intervals.
+  std::vector<std::string> level_names;
+  std::vector<RationalInterval> levels;
   /// Whether it is proved.
   bool holds() const { return reason.empty(); }
 };

@@ -74,6 +74,7 @@ py::list checked_cycles(const std::vector<CycleCertificate>& certificates, const
     if (one.holds()) {
       facts["enclosure"] = exact_ends(one.names, one.state);
       facts["period"] = exact_ends(one.period);
+      facts["levels"] = exact_ends(one.level_names, one.levels);
     }
     list.append(facts);
   }

@@ -43,6 +43,64 @@ std::string words_of(TraceFault fault) {
   }
 }
 
+/// Where so many letters of UTF-8 end that begin at a place.
+std::size_t end_of_letters(const std::string& text, std::size_t begin, std::size_t letters) {
+  const auto continues = [&](std::size_t i) {
+    return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U;
+  };
+  std::size_t end = begin;
+  for (; end < text.size() && letters > 0; --letters) do
+      ++end;
+    while (end < text.size() && continues(end));
+  return end;
+}
+
+/// Whole, in lines that a terminal shows: what is checked is what they say.
+void print_equations(const std::string& equations) {
+  constexpr std::size_t kWidth = 92;
+  std::istringstream lines(equations);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string shown = printable(line, line.size());
+    for (std::size_t at = 0; at < shown.size();) {
+      const std::size_t end = end_of_letters(shown, at, kWidth);
+      fmt::print("    {}{}\n", at > 0 ? "  " : "", shown.substr(at, end - at));
+      at = end;
+    }
+  }
+}
+
+/// The equations without the scene, which is where one cycle was looked for: all of the text,
+/// where something else stands behind it.
+std::string motion_of(const CycleCertificate& certificate) {
+  const std::string scene = "\n[[scene]]", &text = certificate.equations;
+  const auto at = text.rfind(scene);
+  if (at == std::string::npos || text.find('[', at + scene.size()) != std::string::npos)
+    return text;
+  return text.substr(0, at);
+}
+
+bool is_of_the_same(const CycleCertificate& a, const CycleCertificate& b) {
+  return a.of_case == b.of_case && a.plane == b.plane && motion_of(a) == motion_of(b);
+}
+
+nlohmann::ordered_json intervals(const std::vector<std::string>& names,
+                                 const std::vector<RationalInterval>& values) {
+  auto json = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto [low, high] = decimal_ends(values[i]);
+    json[names[i]] = {low, high};
+  }
+  return json;
+}
+
+void print_intervals(const char* indent, const std::vector<std::string>& names,
+                     const std::vector<RationalInterval>& values, int digits = 17) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto [low, high] = decimal_ends(values[i], digits);
+    fmt::print("{}{:<10} [{}, {}]\n", indent, names[i], low, high);
+  }
+}
+
 std::string duration_of(const CheckedCertificate& checked) {
   std::ostringstream text;
   text << checked.duration;
@@ -75,11 +133,9 @@ nlohmann::ordered_json to_json(const CertificateReport& report) {
       {"t", duration_of(checked)}};
   if (checked.holds()) {
     json["radius"] = decimal_above(checked.radius);
-    json["enclosure"] = nlohmann::ordered_json::object();
-    for (std::size_t i = 0; i < checked.names.size(); ++i) {
-      const auto [low, high] = decimal_ends(checked.check.end[i]);
-      json["enclosure"][checked.names[i]] = {low, high};
-    }
+    for (std::size_t i = 0; i < report.certificate.radii.size(); ++i)
+      json["start_radii"][checked.names[i]] = decimal_above(report.certificate.radii[i]);
+    json["enclosure"] = intervals(checked.names, checked.check.end);
   } else {
     json["reason"] = report.reason();
     json["failed_step"] = checked.check.step > 0 ? nlohmann::ordered_json(checked.check.step)
@@ -99,18 +155,15 @@ void print_text(const CertificateReport& report) {
   }
   fmt::print("{}: checked, {} steps in {}\n", of, report.certificate.trace.steps.size(),
              duration_text(report.seconds));
-  std::istringstream lines(report.certificate.equations);
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) fmt::print("    {}\n", printable(line, 400));
+  print_equations(report.certificate.equations);
   if (!checked.integrals.empty())
     fmt::print("  proved again to be constant: {}\n", fmt::join(checked.integrals, ", "));
   if (!report.certificate.radii.empty())
-    fmt::print("  for every start within the radii that the certificate gives\n");
+    fmt::print("  for every start that differs by no more than\n");
+  for (std::size_t i = 0; i < report.certificate.radii.size(); ++i)
+    fmt::print("  {:<10} {}\n", checked.names[i], decimal_above(report.certificate.radii[i]));
   fmt::print("  t = {}\n", duration_of(checked));
-  for (std::size_t i = 0; i < checked.names.size(); ++i) {
-    const auto [low, high] = decimal_ends(checked.check.end[i]);
-    fmt::print("  {:<10} [{}, {}]\n", checked.names[i], low, high);
-  }
+  print_intervals("  ", checked.names, checked.check.end);
   fmt::print("  proved: the state is in this box, whose radius is {}\n",
              decimal_above(checked.radius));
 }
@@ -120,23 +173,25 @@ bool CyclesReport::holds() const {
 }
 
 nlohmann::ordered_json to_json(const CyclesReport& report) {
+  const bool stopped = std::ranges::any_of(report.checked, &CheckedCycle::stopped);
   nlohmann::ordered_json json = {{"certificate", "cycles"},
-                                 {"verdict", report.holds() ? "checked" : "refuted"},
+                                 {"verdict", report.holds() ? "checked"
+                                             : stopped      ? "stopped"
+                                                            : "refuted"},
                                  {"cycles", nlohmann::ordered_json::array()}};
   for (std::size_t k = 0; k < report.checked.size(); ++k) {
     const CheckedCycle& cycle = report.checked[k];
     nlohmann::ordered_json one = {{"case", report.certificates[k].of_case},
-                                  {"verdict", cycle.holds() ? "checked" : "refuted"},
+                                  {"verdict", cycle.holds()   ? "checked"
+                                              : cycle.stopped ? "stopped"
+                                                              : "refuted"},
                                   {"equations", report.certificates[k].equations},
                                   {"plane", report.certificates[k].plane}};
     if (cycle.holds()) {
+      one["level"] = intervals(cycle.level_names, cycle.levels);
       const auto [low, high] = decimal_ends(cycle.period);
       one["period"] = {low, high};
-      one["enclosure"] = nlohmann::ordered_json::object();
-      for (std::size_t i = 0; i < cycle.state.size(); ++i) {
-        const auto [least, most] = decimal_ends(cycle.state[i]);
-        one["enclosure"][cycle.names[i]] = {least, most};
-      }
+      one["enclosure"] = intervals(cycle.names, cycle.state);
     } else {
       one["reason"] = cycle.reason;
     }
@@ -149,18 +204,26 @@ nlohmann::ordered_json to_json(const CyclesReport& report) {
 void print_text(const CyclesReport& report) {
   fmt::print("{} certificates of cycles, looked through in {}\n", report.checked.size(),
              duration_text(report.seconds));
+  const CycleCertificate* said = nullptr;
   for (std::size_t k = 0; k < report.checked.size(); ++k) {
+    const CycleCertificate& certificate = report.certificates[k];
     const CheckedCycle& cycle = report.checked[k];
+    if (!said || !is_of_the_same(*said, certificate)) {
+      fmt::print("  of {}\n", printable(certificate.of_case, 100));
+      print_equations(motion_of(certificate));
+      fmt::print("  through {} = 0\n", printable(certificate.plane, 400));
+      said = &certificate;
+    }
     if (!cycle.holds()) {
       fmt::print("  {:>3}  not proved: {}\n", k + 1, cycle.reason);
       continue;
     }
-    const auto [low, high] = decimal_ends(cycle.period, 13);
+    constexpr int kDigits = 13;
+    const auto [low, high] = decimal_ends(cycle.period, kDigits);
     fmt::print("  {:>3}  proved: one orbit with a period in [{}, {}] through\n", k + 1, low, high);
-    for (std::size_t i = 0; i < cycle.state.size(); ++i) {
-      const auto [least, most] = decimal_ends(cycle.state[i], 13);
-      fmt::print("       {:<10} [{}, {}]\n", cycle.names[i], least, most);
-    }
+    print_intervals("       ", cycle.names, cycle.state, kDigits);
+    if (!cycle.levels.empty()) fmt::print("       for all values of\n");
+    print_intervals("       ", cycle.level_names, cycle.levels);
   }
 }
 
@@ -177,11 +240,7 @@ nlohmann::ordered_json to_json(const CheckedHorseshoeReport& report) {
                                  {"coverings", report.certificate.coverings.size()},
                                  {"integrals", checked.level_names}};
   if (checked.holds()) {
-    json["level"] = nlohmann::ordered_json::object();
-    for (std::size_t a = 0; a < checked.levels.size(); ++a) {
-      const auto [low, high] = decimal_ends(checked.levels[a]);
-      json["level"][checked.level_names[a]] = {low, high};
-    }
+    json["level"] = intervals(checked.level_names, checked.levels);
     json["parts"] = checked.parts;
     json["entropy"] = decimal_below(checked.entropy);
   } else {
@@ -203,14 +262,9 @@ void print_text(const CheckedHorseshoeReport& report) {
   fmt::print("{}: checked, {} coverings of {} h-sets by {} enclosed images in {}\n", of,
              certificate.coverings.size(), certificate.sets.size(), checked.parts,
              duration_text(report.seconds));
-  std::istringstream lines(certificate.equations);
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) fmt::print("    {}\n", printable(line, 400));
+  print_equations(certificate.equations);
   fmt::print("  returns to {} = 0, upwards\n", printable(certificate.plane, 400));
-  for (std::size_t a = 0; a < checked.levels.size(); ++a) {
-    const auto [low, high] = decimal_ends(checked.levels[a]);
-    fmt::print("  {:<10} [{}, {}]\n", checked.level_names[a], low, high);
-  }
+  print_intervals("  ", checked.level_names, checked.levels);
   fmt::print(
       "  proved: the first return map has an orbit for every path of the graph of the coverings; "
       "its\n  topological entropy is at least {}\n",
