@@ -244,5 +244,30 @@ TEST(MotionFrequencies, LinesThatAreTooNearToBeToldApartAreAWarning) {
   }
 }
 
+// Lines at w and -w of one size: the last that is asked for may be either.
+TEST(MotionFrequencies, TwinsAreOneLineInBothHalves) {
+  const Model pendulum = model_of(
+      "hamiltonian = \"p^2/2 - cos(q)\"\n[phase_space]\ncanonical = true\n"
+      "variables = [\"q\", \"p\"]\n[[scene]]\nname = \"default\"\n"
+      "initial = { q = \"0\", p = \"1\" }\nduration = \"300\"\n");
+  for (const std::size_t lines : {2U, 4U, 5U, 6U}) {
+    const MotionFrequencies found = found_in(pendulum, lines);
+    ASSERT_EQ(found.base.size(), 1U) << lines;
+    // pi/(2 K(1/2)), of which the lines of the angle are multiples
+    const double w = std::numbers::pi / (2 * boost::math::ellint_1(0.5));
+    EXPECT_NEAR(std::remainder(found.base[0], w / 2), 0, 1e-10) << lines;
+  }
+}
+
+// 1 and 1.001 in two variables: the base may not have one of them alone.
+TEST(MotionFrequencies, LinesOfTwoVariablesThatAreNearAreNotOne) {
+  SampledMotion motion{{"q1", "q2"}, {false, false}, {}, 0.25};
+  for (int j = 0; j < 801; ++j)
+    motion.states.push_back({std::cos(0.25 * j), 0.6 * std::sin(1.001 * 0.25 * j + 1)});
+  const MotionFrequencies found = frequencies_of(motion, 1);
+  EXPECT_NE(found.base.size(), 1U);
+  EXPECT_TRUE(found.base.size() == 2 || !found.warnings.empty());
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -170,6 +170,18 @@ bool has_near_lines(const MotionFrequencies& all, double width) {
   return false;
 }
 
+/// Whether a strong line that is known well is no combination of the base: it was taken for another
+/// one that is near.
+bool has_unexplained_lines(const MotionFrequencies& all, double width) {
+  for (const VariableSpectrum& variable : all.variables)
+    for (const MotionLine& line : variable.lines)
+      if (line.settled && line.error <= kSettled * width && line.combination.empty() &&
+          line.amplitude > kStrong * variable.lines.front().amplitude &&
+          std::abs(line.frequency) > width / 8)
+        return true;
+  return false;
+}
+
 void warn(MotionFrequencies& all, double width) {
   std::string names;
   for (const std::string& name : unsettled(all, width)) names += (names.empty() ? "" : ", ") + name;
@@ -216,6 +228,14 @@ MotionFrequencies frequencies_of(const SampledMotion& motion, std::size_t lines)
       if (line.settled)
         if (const auto k = combination_of({line.frequency, line.error}, base, width))
           line.combination = *k;
+  if (has_unexplained_lines(all, width)) {
+    all.base.clear();
+    all.base_errors.clear();
+    all.warnings.push_back(
+        "lines of different variables are nearer to each other than this duration can tell, and "
+        "further apart than their errors: whether they are one frequency is not known, and no base "
+        "is named; a longer run tells");
+  }
   return all;
 }
 

@@ -244,8 +244,10 @@ class Analysis {
 void compare_with_halves(std::span<const Complex> samples, Spectrum& whole, std::size_t count) {
   const std::size_t half = samples.size() / 2;
   const double width = 2 / static_cast<double>(half);
-  const std::array<Spectrum, 2> halves{Analysis(samples.first(half)).run(count),
-                                       Analysis(samples.last(half)).run(count)};
+  // Of two lines of one size either may be the last: the halves are asked for both.
+  const std::size_t more = count + 2;
+  const std::array<Spectrum, 2> halves{Analysis(samples.first(half)).run(more),
+                                       Analysis(samples.last(half)).run(more)};
   for (SpectralLine& line : whole.lines) {
     double error = 0;
     for (const Spectrum& part : halves) {

@@ -55,6 +55,11 @@ std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& or
     const KnownInvariant known{found == proofs.end() ? Proof{} : *found};
     if (known.proof.verdict != Verdict::proved)
       doubts.push_back(doubt_of_invariant(one.name, one.drift, known));
+    else
+      doubts.push_back(fmt::format(
+          "{} is proved to be an integral, but drifted by {:.0e}: rounding has moved the orbit by "
+          "more than is estimated of its end",
+          one.name, one.drift));
   }
   return doubts;
 }

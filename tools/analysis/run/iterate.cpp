@@ -155,13 +155,17 @@ class DisturbedOrbits {
     return distance_between({state.begin(), state.end()}, largest);
   }
 
+  /// Relative to the size of each variable at the end, or of all of them where it passes zero: near
+  /// a pole on the way, as of a singularity that is confined, they were larger, and it is over.
   double distance_between(const std::vector<long double>& state,
                           const std::vector<double>& largest) const {
-    double distance = 0;
+    double distance = 0, size = 0;
+    for (const double end : orbit_.state) size = std::max(size, std::abs(end));
     for (std::size_t i = 0; i < state.size(); ++i) {
       const double end = orbit_.state[i], off = static_cast<double>(std::abs(state[i] - end));
       if (!std::isfinite(off)) return 1;  // nothing is left of it
-      if (off > 0) distance = std::max(distance, off / std::max(largest[i], std::abs(end)));
+      const double own = std::max(std::abs(end), std::min(largest[i], size));
+      if (off > 0) distance = std::max(distance, own > 0 ? off / own : 1.);
     }
     return distance;
   }
