@@ -147,6 +147,10 @@ void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAn
   if (!report.symmetries.empty())
     fmt::print("relative equilibria move with the flow of {}\n",
                fmt::join(report.symmetries, ", "));
+  if (!answer.ranges.empty())
+    fmt::print(
+        "states, eigenvalues and what these say are of the middle of {}; proofs are of all\n",
+        answer.ranges);
   std::size_t shown = 0;
   for (const Equilibrium& e : report.equilibria) {
     if (shown == kMost) break;

@@ -42,6 +42,10 @@ int create(const NewArguments& options) {
   if (!plain)
     throw UsageError(
         fmt::format("'{}' cannot name a case: letters, digits, '_' and '-' only", printable(stem)));
+  constexpr std::size_t kLongest = 200;  // letters, of a file's name
+  if (stem.size() > kLongest)
+    throw UsageError(fmt::format("'{}' is too long a name for a case: {} letters, at most {}",
+                                 printable(stem, 40), stem.size(), kLongest));
   const std::filesystem::path path = options.output.empty() ? stem + ".toml" : options.output;
   if (!options.force && std::filesystem::exists(path))
     throw UsageError(

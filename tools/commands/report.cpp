@@ -148,7 +148,8 @@ void say_problems(const std::vector<std::string>& problems) {
 
 int report_one(const ReportArguments& options) {
   const CaseFile file = load_case(options.case_name, options.common.limits);
-  const std::string path = options.output.empty() ? file.name + ".html" : options.output;
+  const std::string of_case = options.case_name == "-" ? "report" : file.name;
+  const std::string path = options.output.empty() ? of_case + ".html" : options.output;
   if (!is_page_name(path))
     throw UsageError(fmt::format("'{}': a report's name must end in .html", printable(path, 200)));
   Progress progress(!options.common.quiet);
@@ -377,7 +378,8 @@ void register_report(CLI::App& program, Action& action) {
       ->check(number_from_zero());
   command
       ->add_option("--output", options->output,
-                   "The page (default: CASE.html); with --all a folder (default: report), or the "
+                   "The page (default: CASE.html, or report.html of standard input); with --all a "
+                   "folder (default: report), or the "
                    "index page, beside which the others stand")
       ->type_name("FILE.html");
   command->callback([options, &action] { action = action_of(options, report); });

@@ -9,6 +9,7 @@
 #include "codegen/optimise/lower.hpp"
 #include "codegen/optimise/terms.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 
@@ -103,11 +104,14 @@ void take_start(const Specialisation& code, LiveSystem& live) {
 
 }  // namespace
 
-LiveSystem live_system(const Model& model, const Scene& scene,
+LiveSystem live_system(const Model& any, const Scene& any_scene,
                        const std::optional<DrawnSection>& drawn) {
   constexpr std::size_t kMostStates = 60;
   constexpr int kOrder = 24;
-  if (!scene.duration) throw RequestError("the scene has no duration");
+  if (!any_scene.duration) throw RequestError("the scene has no duration");
+  // With the functions that the scene gives in place of arbitrary ones.
+  const auto [model, scene] =
+      has_arbitrary_functions(any) ? in_scene(any, any_scene) : std::pair{any, any_scene};
   if (model.variables.size() > kMostStates)
     throw RequestError(fmt::format("{} states are too many for a page", model.variables.size()));
   SpecialiseOptions open;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "codegen/dag/expression_dag.hpp"
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/expression/arbitrary.hpp"
 #include "tools/report/page.hpp"
 #include "tools/show/show.hpp"
 #include "tools/typeset/html.hpp"
@@ -78,17 +80,35 @@ std::string conditions(const Model& model) {
   return list.empty() ? "" : "<p>Assumed: " + list + ".</p>\n";
 }
 
+/// The body of a function that a scene gives, behind its arguments: the same text in every run.
+std::string function_text(const Model& model, const GiNaC::lst& function) {
+  std::vector<GiNaC::symbol> symbols;
+  for (std::size_t i = 0; i + 1 < function.nops(); ++i)
+    symbols.push_back(GiNaC::ex_to<GiNaC::symbol>(function.op(i)));
+  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+  codegen::Dag dag(symbols, function.nops() - 1);
+  return dag.text(dag.convert(function.op(function.nops() - 1)));
+}
+
 std::string scene_values(const Model& model, const Scene& scene) {
-  const auto value = [](const GiNaC::ex& e) { return html::text(expression_text(e), 60); };
   std::string list;
-  const auto add = [&](const GiNaC::symbol& symbol, const GiNaC::ex& e) {
-    list += (list.empty() ? "" : ", ") + html::text(symbol.get_name()) + " = " + value(e);
+  const auto add = [&](const std::string& name, const std::string& value) {
+    list += (list.empty() ? "" : ", ") + html::text(name) + " = " + html::text(value, 60);
   };
-  for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    add(model.parameters[i], scene.parameters[i]);
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const GiNaC::symbol& parameter = model.parameters[i];
+    const GiNaC::ex& given = scene.parameters[i];
+    if (GiNaC::is_a<GiNaC::lst>(given))
+      add(parameter.get_name(), function_text(model, GiNaC::ex_to<GiNaC::lst>(given)));
+    else if (function_name(parameter.get_name()))
+      add(parameter.get_name(), "not given");
+    else
+      add(parameter.get_name(), expression_text(given));
+  }
   for (std::size_t i = 0; i < model.variables.size(); ++i)
-    add(model.variables[i], scene.initial[i]);
-  return scene.duration ? list + "; duration " + value(*scene.duration) : list;
+    add(model.variables[i].get_name(), expression_text(scene.initial[i]));
+  if (!scene.duration) return list;
+  return list + "; duration " + html::text(expression_text(*scene.duration), 60);
 }
 
 std::string scenes(const Model& model) {

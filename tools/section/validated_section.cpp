@@ -111,9 +111,9 @@ void print_text(const CrossingReport& report) {
     fmt::print("  {:>5}  t in [{}, {}]\n", ++n, low, high);
   }
   fmt::print(
-      "  proved: {} crossings in 0 < t < {} and no other in this direction, each in its "
+      "  proved: {} {} between t = 0 and t = {} and no other in this direction, each in its "
       "interval\n",
-      n, report.until());
+      n, n == 1 ? "crossing" : "crossings", report.until());
   fmt::print("  the widest box of a state at one of them has the radius {}\n",
              decimal_above(report.widest()));
   if (run.starts_on_plane)

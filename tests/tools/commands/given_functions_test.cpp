@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "tests/tools/program.hpp"
 
@@ -40,6 +41,22 @@ class GivenFunctions : public testing::Test {
 
   const Folder folder_;
 };
+
+TEST_F(GivenFunctions, AreOnAPageAsTheSceneGivesThem) {
+  const Outcome outcome =
+      run_on(kSpring, {"report", "--budget", "0", "--output", "page.html", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string page = file_text(folder_.path() / "page.html");
+  EXPECT_NE(page.find("U(r) = r^2*k/2"), std::string::npos);
+  EXPECT_EQ(page.find("is arbitrary: a scene gives it"), std::string::npos);
+}
+
+// A page of a case that has no name of its own.
+TEST_F(GivenFunctions, OfStandardInputHaveAPageCalledReport) {
+  const Outcome outcome = run_in(folder_, {"report", "-", "--budget", "0"}, kSpring);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report.html")) << outcome.out;
+}
 
 TEST_F(GivenFunctions, MoveWithAParameterThatHasARange) {
   const Outcome outcome = run_on(kSpring, {"integrate", "--validated", "--param", "k=1..1.001",
