@@ -343,15 +343,17 @@ class PreciseRunner {
 
   /// The state at the end of every step, or of every second, fourth, .. in longer runs.
   void record_way() {
-    constexpr std::size_t kMost = 4096;
     if (!problem_.keep_way || run_.steps % way_stride_ != 0) return;
-    if (run_.way.size() == kMost) {
-      for (std::size_t k = 1; 2 * k < kMost; ++k) {
-        run_.way_times[k] = std::move(run_.way_times[2 * k]);
-        run_.way[k] = std::move(run_.way[2 * k]);
+    constexpr std::size_t kMost = 4096, kLeast = 128, kBytes = std::size_t{1} << 25, kOfNumber = 32;
+    const std::size_t bytes = state_.size() * (static_cast<std::size_t>(bits_) / 8 + kOfNumber);
+    if (run_.way.size() >= std::clamp(kBytes / bytes, kLeast, kMost)) {
+      std::size_t kept = 0;
+      for (std::size_t k = 1; k < run_.way.size(); k += 2, ++kept) {
+        run_.way_times[kept] = std::move(run_.way_times[k]);
+        run_.way[kept] = std::move(run_.way[k]);
       }
-      run_.way_times.resize(kMost / 2);
-      run_.way.resize(kMost / 2);
+      run_.way_times.resize(kept);
+      run_.way.resize(kept);
       way_stride_ *= 2;
       if (run_.steps % way_stride_ != 0) return;
     }

@@ -15,10 +15,9 @@ constexpr double kAtRest = 1e-3;
 }  // namespace
 
 PartingSolutions::PartingSolutions(const PreparedScene& run)
-    : roots_(run.specialisation.rhs, run.parameters),
-      rates_(run.specialisation.rhs),
-      last_(run.initial),
-      inputs_(run.initial) {
+    : roots_(run.specialisation.rhs, run.parameters), last_(run.initial), inputs_(run.initial) {
+  if (!roots_.any()) return;
+  rates_.emplace(run.specialisation.rhs);
   inputs_.insert(inputs_.end(), run.parameters.begin(), run.parameters.end());
   inputs_.push_back(0);
 }
@@ -48,7 +47,7 @@ void PartingSolutions::see(double t, const double* x) {
   const std::vector<double> last = roots_.radicands(1, on_line);
   fastest_.resize(first.size());
   for (std::size_t k = 0; k < first.size(); ++k)
-    fastest_[k] = std::max(fastest_[k], std::max(first[k], last[k]) / std::abs(duration));
+    fastest_[k] = std::max(fastest_[k], std::abs((last[k] - first[k]) / duration));
   const std::optional<double> zero = roots_.zero_in(on_line, kZeroInDoubles);
   if (zero && rests_at(*zero, on_line, duration)) time_ = last_time_ + *zero * duration;
 }
@@ -59,7 +58,7 @@ bool PartingSolutions::rests_at(double part, const RootZeros::StateAt& at, doubl
   const std::vector<double> there = roots_.radicands(part, at);
   inputs_.back() = at(part, inputs_.data());
   std::vector<double> rates(last_.size());
-  rates_(inputs_.data(), rates.data());
+  (*rates_)(inputs_.data(), rates.data());
   const std::vector<double> moved = roots_.radicands(part, [&](double place, double* x) {
     const double time = at(place, x);
     for (std::size_t i = 0; i < rates.size(); ++i) x[i] += kAside * duration * rates[i];

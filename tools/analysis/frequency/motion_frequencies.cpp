@@ -231,6 +231,8 @@ MotionFrequencies frequencies_of(const SampledMotion& motion, std::size_t lines)
   if (has_unexplained_lines(all, width)) {
     all.base.clear();
     all.base_errors.clear();
+    for (VariableSpectrum& variable : all.variables)
+      for (MotionLine& line : variable.lines) line.combination.clear();
     all.warnings.push_back(
         "lines of different variables are nearer to each other than this duration can tell, and "
         "further apart than their errors: whether they are one frequency is not known, and no base "
