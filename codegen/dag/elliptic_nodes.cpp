@@ -85,6 +85,17 @@ int duplications_of(const std::vector<Scaled>& arguments) {
   return std::max(count, kDuplications);
 }
 
+/// A factor of a series that is 1, to the last digit of a double, where its arguments are near
+/// zero, and no number where they are not: what the series says there is wrong, and nobody would
+/// see it. The last term of the sum is a small part of it, so that what lies between does no harm.
+Scaled one_where_near(const Terms& t, const std::vector<Scaled>& arguments) {
+  constexpr int kPower = 64, kOfSquares = 50;
+  std::vector<Scaled> squares;
+  for (const Scaled& argument : arguments) squares.push_back(t.power(argument, 2));
+  const Scaled far = t.power(t.times(kOfSquares, t.sum(squares)), kPower);
+  return t.root(t.minus(t.one(), far));
+}
+
 /// A number with what of its powers a series needs.
 Scaled seventh_order(const Terms& t, const Scaled& e2, const Scaled& e3, const Scaled& e4,
                      const Scaled& e5) {
@@ -144,17 +155,17 @@ Scaled second_kind(const Terms& t, Scaled x, Scaled y, Scaled z, int duplication
 
 /// Carlson (1995), with R_C(1, 1 + e) = R_F(1, 1 + e, 1 + e).
 Scaled third_kind(const Terms& t, Scaled x, Scaled y, Scaled z, Scaled p, int duplications) {
-  const Scaled delta = t.product({t.minus(p, x), t.minus(p, y), t.minus(p, z)});
   std::vector<Scaled> sum;
   cln::cl_RA quarter = 1;
   for (int n = 0; n < duplications; ++n) {
     const Scaled a = t.root(x), b = t.root(y), c = t.root(z), r = t.root(p);
     const Scaled d = t.product({t.sum({r, a}), t.sum({r, b}), t.sum({r, c})});
-    const Scaled e = t.times(quarter * quarter * quarter, t.over(delta, t.power(d, 2)));
-    const Scaled second = t.sum({t.one(), e});
-    sum.push_back(t.times(6 * quarter,
-                          t.over(first_kind(t, t.one(), second, second, kShortDuplications), d)));
     const Scaled lambda = t.sum({t.product({a, b}), t.product({b, c}), t.product({a, c})});
+    // 1 + (p - x)(p - y)(p - z)/d^2, with (r - a)/(r + a) for (p - x)/(r + a)^2 and so on: of
+    // positive terms alone, so that nothing cancels where p is small.
+    const Scaled second = t.times(2, t.over(t.product({r, t.sum({p, lambda})}), d));
+    const int many = n == 0 ? kDuplications : kShortDuplications;
+    sum.push_back(t.times(6 * quarter, t.over(first_kind(t, t.one(), second, second, many), d)));
     for (Scaled* argument : {&x, &y, &z, &p})
       *argument = t.times(ratio(1, 4), t.sum({*argument, lambda}));
     quarter = quarter / 4;
@@ -171,7 +182,8 @@ Scaled third_kind(const Terms& t, Scaled x, Scaled y, Scaled z, Scaled p, int du
       t.product({t.sum({t.times(2, uvw), t.product({e2, q}), t.times(3, t.product({q2, q}))}), q});
   const Scaled e5 = t.product({uvw, q2});
   sum.push_back(
-      t.times(quarter, t.product({t.power(mean, ratio(-3, 2)), seventh_order(t, e2, e3, e4, e5)})));
+      t.times(quarter, t.product({t.power(mean, ratio(-3, 2)), seventh_order(t, e2, e3, e4, e5),
+                                  one_where_near(t, {u, v, w, q})})));
   return t.sum(sum);
 }
 
