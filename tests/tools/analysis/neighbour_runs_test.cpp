@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "tests/tools/analysis/assessed.hpp"
@@ -158,6 +159,32 @@ TEST(NeighbourRuns, ThatAreShiftedInTimeHaveNotParted) {
         estimate_of(front, front.scene("default"), method, settings, &run, 3);
     ASSERT_EQ(run.status, Status::ok) << method;
     EXPECT_FALSE(trust.parted) << method << ' ' << tolerance << ' ' << *trust.parted;
+  }
+}
+
+// Low orders come nearer with a hundredth of the tolerance, and not near enough.
+TEST(NeighbourRuns, ThatAreShiftedByMoreThanAJumpTakesHaveNotParted) {
+  const auto van_der_pol = [](const std::string& mu, const std::string& duration) {
+    return model_of("[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"y\"\ny = \"" +
+                    mu +
+                    "*(1 - x^2)*y - x\"\n[[scene]]\nname = \"default\"\n"
+                    "initial = { x = \"2\", y = \"0\" }\nduration = \"" +
+                    duration + "\"\n");
+  };
+  const Model stiff = van_der_pol("1000", "3000"), mild = van_der_pol("40", "150");
+  for (const auto& [model, method, tolerance, x] : {std::tuple{stiff, "radau5", 1e-4, -1.51060694},
+                                                    {stiff, "cvode-bdf", 1e-6, -1.51060694},
+                                                    {mild, "midpoint", 1e-3, 1.67056}}) {
+    Settings settings;
+    settings.duration = x < 0 ? 3000 : 150;
+    settings.rtol = settings.atol = tolerance;
+    Trajectory run;
+    const ErrorEstimate trust =
+        estimate_of(model, model.scene("default"), method, settings, &run, 3);
+    ASSERT_EQ(run.status, Status::ok) << method;
+    EXPECT_FALSE(trust.parted) << method << ' ' << *trust.parted;
+    EXPECT_GT(trust.error_estimate, std::abs(run.state[0] - x) / 6) << method;
+    EXPECT_LT(trust.error_estimate, 0.05) << method;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/solve.hpp"
@@ -44,6 +45,22 @@ TEST(PartingSolutions, NeedAPlaceThatIsNotCrossed) {
     ASSERT_TRUE(motion.ok()) << method;
     EXPECT_FALSE(motion.trust().one_of_several) << method;
     EXPECT_NEAR(motion.trajectory().state[1], 4. / 3, 1e-6) << method;
+  }
+  // Drag: the fall from 1000 is a million times as fast as the passage through 0, which is crossed.
+  const Solution drag = solved(one_equation("-1 - 1000*x*sqrt(1000*abs(x))/1000", "10"), "auto", 0);
+  ASSERT_TRUE(drag.ok());
+  EXPECT_FALSE(drag.trust().one_of_several);
+  // What rests at 0, or comes there by rounding, as fast as it is far from it.
+  for (const auto& [z, rate, method] : {std::tuple{"0", "-z", "auto"},
+                                        {"1", "-1000000*z", "cvode-bdf"},
+                                        {"1", "-z*sqrt(abs(z))", "auto"}}) {
+    const Model rest = model_of(
+        "[phase_space]\nvariables = [\"y\", \"z\"]\n[equations]\n"
+        "y = \"-y + sqrt(abs(z))\"\nz = \"" +
+        std::string(rate) + "\"\n[[scene]]\nname = \"default\"\ninitial = { y = \"1\", z = \"" + z +
+        "\" }\nduration = \"3\"\n");
+    const Solution motion = solved(rest, method, method == std::string("auto") ? 0 : 1e-10);
+    EXPECT_FALSE(motion.trust().one_of_several) << rate;
   }
   const Solution slow = solved(one_equation("-x*sqrt(abs(x))", "10^6"), "auto", 1e-10);
   ASSERT_TRUE(slow.ok());

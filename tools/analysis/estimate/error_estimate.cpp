@@ -130,18 +130,17 @@ CrossCheck cross_check(const PreparedScene& run, const Method& method, const Set
   return result;
 }
 
-/// How far runs are apart on the way though both end in the same place. It is looked at where that
+/// Whether runs are apart on the way though both end in the same place. It is looked at where that
 /// takes next to no time, and where changes of the size of local errors become as large as the
 /// state, and die out.
-std::optional<double> parted(const NeighbourRuns& neighbours, const Settings& settings,
-                             const ErrorEstimate& trust, double share_of_budget) {
+NeighbourRuns::Parting parting(const NeighbourRuns& neighbours, const Settings& settings,
+                               const ErrorEstimate& trust, double share_of_budget) {
   constexpr double kOfConstantStep = 1e-4, kDiesOut = 0.1, kApart = 1e-3, kNextToNothing = 0.02;
   const double local =
       settings.fixed_step > 0 ? kOfConstantStep : std::max(kRoundoff, settings.rtol);
   const bool may_be =
       trust.on_the_way * local > kSpoiled && trust.conditioning < kDiesOut * trust.on_the_way;
-  if (!(trust.error_estimate < kApart) || !(may_be || share_of_budget < kNextToNothing))
-    return std::nullopt;
+  if (!(trust.error_estimate < kApart) || !(may_be || share_of_budget < kNextToNothing)) return {};
   return neighbours.parted_on_the_way(kApart);
 }
 
@@ -300,8 +299,12 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     trust.error_estimate = std::max(trust.error_estimate, check.distance);
   }
   trust.unconfirmed = trust.unconfirmed || (may_hide && !has_time && short_of_end);
-  if (repeated) trust.parted = parted(neighbours, settings, trust, trajectory.seconds / budget);
-  if (trust.parted) trust.error_estimate = std::max(trust.error_estimate, *trust.parted);
+  if (repeated) {
+    const NeighbourRuns::Parting found =
+        parting(neighbours, settings, trust, trajectory.seconds / budget);
+    trust.parted = found.apart;
+    trust.error_estimate = std::max({trust.error_estimate, found.at_end, found.apart.value_or(0)});
+  }
   trust.beyond_double = !(trust.on_the_way * kRoundoff < kSpoiled);
   // Which way the motion took was decided by rounding: all of the state is in doubt, which the
   // growth up to the end does not show.

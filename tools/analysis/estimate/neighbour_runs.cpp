@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "symbolic/error.hpp"
+#include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
 namespace {
@@ -136,8 +137,8 @@ NeighbourRuns::Way NeighbourRuns::way_of(Settings settings) const {
   return way;
 }
 
-NeighbourRuns::Way NeighbourRuns::at_times(const std::vector<double>& times,
-                                           Settings settings) const {
+NeighbourRuns::Way NeighbourRuns::at_times(const std::vector<double>& times, Settings settings,
+                                           const Module& module, const Method& method) const {
   Way way;
   const double direction = settings.duration < 0 ? -1 : 1;
   std::vector<double> state(sizes_.size());
@@ -152,10 +153,28 @@ NeighbourRuns::Way NeighbourRuns::at_times(const std::vector<double>& times,
       way.times.push_back(time);
     }
   };
-  way.reached =
-      integrate(compiled_.module, method_, settings, run_.initial, run_.parameters).status ==
-      Status::ok;
+  const Trajectory run = integrate(module, method, settings, run_.initial, run_.parameters);
+  way.reached = run.status == Status::ok;
+  way.end = run.state;
   return way;
+}
+
+/// By series, or where these get nowhere by Radau's method.
+NeighbourRuns::Way NeighbourRuns::reference(const std::vector<double>& times, double rtol) const {
+  constexpr unsigned long long kMostSteps = 20000;
+  Settings settings;
+  settings.begin = own_.begin;
+  settings.duration = own_.duration;
+  settings.rtol = rtol;
+  settings.atol = rtol * std::ranges::min(sizes_);
+  settings.max_steps = kMostSteps;
+  settings.give_up = own_.give_up;
+  const Specialisation& s = run_.specialisation;
+  const Module series = taylor_module_without_compiler(s.rhs, s.limits, {}, run_.parameters);
+  Way way = at_times(times, settings, series, *find_method("taylor"));
+  if (way.reached) return way;
+  const Method& stiff = *find_method("radau9");
+  return at_times(times, settings, compile_for(run_, stiff).module, stiff);
 }
 
 double NeighbourRuns::largest_distance(const Way& a, const Way& b) const {
@@ -165,29 +184,25 @@ double NeighbourRuns::largest_distance(const Way& a, const Way& b) const {
   return largest;
 }
 
-std::optional<double> NeighbourRuns::parted_on_the_way(double least) const {
-  const Way first = way_of(own_), second = at_times(first.times, tight_);
-  if (!first.reached || !second.reached) return std::nullopt;
+NeighbourRuns::Parting NeighbourRuns::parted_on_the_way(double least) const {
+  const Module& module = compiled_.module;
+  const Way first = way_of(own_), second = at_times(first.times, tight_, module, method_);
+  if (!first.reached || !second.reached) return {};
   const double apart = largest_distance(first, second);
-  if (!(apart > least)) return std::nullopt;
-  constexpr double kShrinks = 0.3;
+  if (!(apart > least)) return {};
+  constexpr double kShrinks = 0.3, kFine = 1e-9, kFinest = 1e-12;
   Settings third = tight_;
   third.rtol *= kHundredth;
   third.atol *= kHundredth;
   third.fixed_step /= 2;
   if (third.fixed_step > 0 || third.rtol >= 2 * kLeastTolerance) {
-    const Way tighter = at_times(first.times, third);
-    if (tighter.reached && largest_distance(second, tighter) < kShrinks * apart)
-      return std::nullopt;
-    if (tighter.reached) return apart;
+    const Way tighter = at_times(first.times, third, module, method_);
+    if (tighter.reached && largest_distance(second, tighter) < kShrinks * apart) return {};
   }
-  third = own_;
-  third.rtol /= kHundredth;
-  third.atol /= kHundredth;
-  third.fixed_step *= 2;
-  const Way looser = at_times(first.times, third);
-  const bool shrinks = looser.reached && apart < kShrinks * largest_distance(first, looser);
-  return shrinks ? std::nullopt : std::optional(apart);
+  const Way fine = reference(first.times, kFine), finest = reference(first.times, kFinest);
+  if (!fine.reached || !finest.reached || !(largest_distance(fine, finest) < kShrinks * apart))
+    return {.apart = apart};
+  return {.at_end = relative_distance(finest.end, first_.state, sizes_)};
 }
 
 std::optional<double> NeighbourRuns::moved_by_rounding() const {

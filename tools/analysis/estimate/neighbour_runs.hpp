@@ -38,11 +38,18 @@ class NeighbourRuns {
   /// How far the samples are from those of a run with a tighter tolerance.
   std::optional<double> distance_of_samples(const Trajectory& trajectory, double every) const;
 
-  /// How far a run with a tighter tolerance is from this one somewhere on the way, where that is
-  /// more than `least` and becomes no less with the tolerance: runs that leave an unstable motion
-  /// by what their steps err by do so at times of their own. (A motion that turns a little earlier
-  /// or later comes nearer with each tighter tolerance.) Nothing where one of the runs fails.
-  std::optional<double> parted_on_the_way(double least) const;
+  /// What becomes of runs that are apart on the way.
+  struct Parting {
+    /// How far, where that becomes no less with the tolerance: runs that leave an unstable motion
+    /// by what their steps err by do so at times of their own.
+    std::optional<double> apart = {};
+    /// How far the end is from that of a run by series, or by Radau's method, to twelve digits,
+    /// where these agree on the way: a motion that turns at once does so a little earlier or later.
+    double at_end = 0;
+  };
+  /// Compares the run with others at the ends of its steps. Nothing where they are nowhere further
+  /// apart than `least`, or one of them fails.
+  Parting parted_on_the_way(double least) const;
 
   /// How far the end is moved where each state of the scene that has been rounded begins at the
   /// next double on the other side of its exact value: by more than what small changes grow to
@@ -62,11 +69,13 @@ class NeighbourRuns {
   /// States at times in order.
   struct Way {
     bool reached = false;  ///< the end
-    std::vector<double> times;
+    std::vector<double> end, times;
     std::vector<std::vector<double>> states;
   };
   Way way_of(Settings settings) const;
-  Way at_times(const std::vector<double>& times, Settings settings) const;
+  Way at_times(const std::vector<double>& times, Settings settings, const Module& module,
+               const Method& method) const;
+  Way reference(const std::vector<double>& times, double rtol) const;
   double largest_distance(const Way& a, const Way& b) const;
   std::optional<Trajectory> with_parameter(std::size_t j, double value) const;
   std::optional<double> growth(const std::function<Trajectory(double change)>& neighbour_at) const;

@@ -9,8 +9,6 @@ namespace {
 
 /// Of the largest argument in a step: what is zero in double precision.
 constexpr double kZeroInDoubles = 1e-10;
-/// Of the fastest change of an argument so far: where it comes to zero, what is none.
-constexpr double kAtRest = 1e-3;
 
 }  // namespace
 
@@ -43,33 +41,40 @@ void PartingSolutions::see(double t, const double* x) {
     for (std::size_t i = 0; i < last_.size(); ++i) state[i] = (1 - part) * last_[i] + part * x[i];
     return last_time_ + part * duration;
   };
-  const std::vector<double> first = roots_.radicands(0, on_line);
-  const std::vector<double> last = roots_.radicands(1, on_line);
-  fastest_.resize(first.size());
-  for (std::size_t k = 0; k < first.size(); ++k)
-    fastest_[k] = std::max(fastest_[k], std::abs((last[k] - first[k]) / duration));
   const std::optional<double> zero = roots_.zero_in(on_line, kZeroInDoubles);
-  if (zero && rests_at(*zero, on_line, duration)) time_ = last_time_ + *zero * duration;
+  if (zero && parts_at(*zero, on_line, duration)) time_ = last_time_ + *zero * duration;
 }
 
-/// Whether an argument that is zero there stays so, as the rates have it.
-bool PartingSolutions::rests_at(double part, const RootZeros::StateAt& at, double duration) {
-  constexpr double kAside = 1e-3;
+/// How fast the arguments change by the rates at a place on the line.
+std::vector<double> PartingSolutions::speeds(double part, const RootZeros::StateAt& at,
+                                             double time) {
   const std::vector<double> there = roots_.radicands(part, at);
   inputs_.back() = at(part, inputs_.data());
   std::vector<double> rates(last_.size());
   (*rates_)(inputs_.data(), rates.data());
-  const std::vector<double> moved = roots_.radicands(part, [&](double place, double* x) {
-    const double time = at(place, x);
-    for (std::size_t i = 0; i < rates.size(); ++i) x[i] += kAside * duration * rates[i];
-    return time + kAside * duration;
+  std::vector<double> result = roots_.radicands(part, [&](double place, double* x) {
+    const double now = at(place, x);
+    for (std::size_t i = 0; i < rates.size(); ++i) x[i] += time * rates[i];
+    return now + time;
   });
-  const std::vector<double> first = roots_.radicands(0, at), last = roots_.radicands(1, at);
-  for (std::size_t k = 0; k < there.size(); ++k) {
-    const bool zero = there[k] <= kZeroInDoubles * std::max(first[k], last[k]);
-    const double speed = std::abs((moved[k] - there[k]) / (kAside * duration));
-    if (zero && speed <= kAtRest * fastest_[k]) return true;
-  }
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = std::abs((result[k] - there[k]) / time);
+  return result;
+}
+
+/// Whether the speed of an argument goes to zero with it, and more slowly than it does: that of
+/// -sqrt|x| does, that of -x goes as fast as x, and one that crosses has a speed.
+bool PartingSolutions::parts_at(double part, const RootZeros::StateAt& at, double duration) {
+  constexpr double kFar = 1e-3, kNear = 1e-6, kOfPlace = 1e-3, kSlower = 0.5, kSteeper = 2;
+  const double side = part < 1. / 2 ? 1 : -1;
+  const std::vector<double> far = speeds(part + side * kFar, at, kOfPlace * kFar * duration);
+  const std::vector<double> near = speeds(part + side * kNear, at, kOfPlace * kNear * duration);
+  const std::vector<double> there = roots_.radicands(part, at), first = roots_.radicands(0, at),
+                            last = roots_.radicands(1, at);
+  for (std::size_t k = 0; k < there.size(); ++k)
+    if (there[k] <= kZeroInDoubles * std::max(first[k], last[k]) && far[k] > 0 &&
+        near[k] <= kSlower * far[k] && near[k] / kNear >= kSteeper * far[k] / kFar)
+      return true;
   return false;
 }
 

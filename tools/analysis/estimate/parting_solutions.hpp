@@ -28,14 +28,14 @@ class PartingSolutions {
 
  private:
   void see(double t, const double* x);
-  bool rests_at(double part, const RootZeros::StateAt& at, double duration);
+  std::vector<double> speeds(double part, const RootZeros::StateAt& at, double time);
+  bool parts_at(double part, const RootZeros::StateAt& at, double duration);
 
   RootZeros roots_;
   std::optional<Interpreter> rates_;  ///< none where there are no such roots
   double last_time_ = 0;              ///< the end of the last step ..
   std::vector<double> last_;          ///< .. and the state there
   std::vector<double> inputs_;        ///< of the right-hand side
-  std::vector<double> fastest_;       ///< of each argument, so far
   std::optional<double> time_;
 };
 
