@@ -418,6 +418,19 @@ duration = "6"
   const auto of_start = [&](const std::string& y) {
     return run_in(folder, {"integrate", "./confined.toml", "--initial", "y=" + y, "--json"}).json();
   };
+  // 1/3 - x comes from 1/3 to 0 exactly, which is no loss.
+  folder.write("zero.toml", R"toml([phase_space]
+variables = ["x"]
+[map]
+x = "1/3 - x"
+[[scene]]
+name = "default"
+initial = { x = "1/3" }
+duration = "101"
+)toml");
+  const auto zero = run_in(folder, {"integrate", "./zero.toml", "--json"}).json();
+  EXPECT_LT(zero.at("trust").at("error_estimate"), 1e-12);
+  EXPECT_TRUE(zero.at("warnings").empty());
   const auto lost = of_start("1/10^8"), some = of_start("1/10^5"), none = of_start("1/3");
   EXPECT_GT(lost.at("trust").at("error_estimate"), 0.1);
   EXPECT_FALSE(lost.at("warnings").empty());

@@ -155,12 +155,14 @@ class DisturbedOrbits {
     return distance_between({state.begin(), state.end()}, largest);
   }
 
-  /// Relative to the size of each variable at the end, or of all of them where it passes zero: near
-  /// a pole on the way, as of a singularity that is confined, they were larger, and it is over.
+  /// Relative to the size of each variable at the end, or of all of them there and one step before
+  /// where it passes zero: near a pole on the way, as of a singularity that is confined, they were
+  /// larger, and it is over.
   double distance_between(const std::vector<long double>& state,
                           const std::vector<double>& largest) const {
     double distance = 0, size = 0;
     for (const double end : orbit_.state) size = std::max(size, std::abs(end));
+    for (const double before : orbit_.before) size = std::max(size, std::abs(before));
     for (std::size_t i = 0; i < state.size(); ++i) {
       const double end = orbit_.state[i], off = static_cast<double>(std::abs(state[i] - end));
       if (!std::isfinite(off)) return 1;  // nothing is left of it
@@ -257,6 +259,7 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
     result.samples.push_back(result.state);
   }
   drift.look(result.state, result.invariants);
+  if (result.steps > 0) result.before = std::move(next);
   if (with_estimate)
     result.error_estimate = estimated_error(DisturbedOrbits(module, run, s, result), result);
   return result;

@@ -19,6 +19,7 @@ struct Iterated {
   bool stopped = false;  ///< by `give_up`
   std::vector<std::string> names;
   std::vector<double> state;
+  std::vector<double> before;  ///< the state one step before that one; empty at the start
   std::vector<std::uint64_t> sample_steps;
   std::vector<std::vector<double>> samples;
   struct Invariant {
