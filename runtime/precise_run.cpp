@@ -349,7 +349,7 @@ class PreciseRunner {
     if (run_.way.size() >= std::clamp(kBytes / bytes, kLeast, kMost)) {
       std::size_t kept = 0;
       for (std::size_t k = 1; k < run_.way.size(); k += 2, ++kept) {
-        run_.way_times[kept] = std::move(run_.way_times[k]);
+        run_.way_times[kept] = run_.way_times[k];
         run_.way[kept] = std::move(run_.way[k]);
       }
       run_.way_times.resize(kept);
