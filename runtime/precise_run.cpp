@@ -10,6 +10,7 @@
 #include "runtime/digits/precise_step.hpp"
 #include "runtime/digits/root_zeros.hpp"
 #include "runtime/evaluate.hpp"
+#include "runtime/every_second.hpp"
 #include "runtime/program/angle_branches.hpp"
 #include "runtime/program/exact_number.hpp"
 #include "runtime/program/interpreter.hpp"
@@ -347,13 +348,8 @@ class PreciseRunner {
     constexpr std::size_t kMost = 4096, kLeast = 128, kBytes = std::size_t{1} << 25, kOfNumber = 32;
     const std::size_t bytes = state_.size() * (static_cast<std::size_t>(bits_) / 8 + kOfNumber);
     if (run_.way.size() >= std::clamp(kBytes / bytes, kLeast, kMost)) {
-      std::size_t kept = 0;
-      for (std::size_t k = 1; k < run_.way.size(); k += 2, ++kept) {
-        run_.way_times[kept] = run_.way_times[k];
-        run_.way[kept] = std::move(run_.way[k]);
-      }
-      run_.way_times.resize(kept);
-      run_.way.resize(kept);
+      keep_every_second(run_.way_times);
+      keep_every_second(run_.way);
       way_stride_ *= 2;
       if (run_.steps % way_stride_ != 0) return;
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/every_second.hpp"
 #include "symbolic/error.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
@@ -120,13 +121,10 @@ NeighbourRuns::Way NeighbourRuns::way_of(Settings settings) const {
   settings.watch_within = [&](double t, const double* x, const auto&) {
     if (++steps % stride != 0) return;
     if (way.times.size() == kMost) {
-      for (std::size_t k = 1; 2 * k < kMost; ++k) {
-        way.times[k] = way.times[2 * k];
-        way.states[k] = std::move(way.states[2 * k]);
-      }
-      way.times.resize(kMost / 2);
-      way.states.resize(kMost / 2);
+      keep_every_second(way.times);
+      keep_every_second(way.states);
       stride *= 2;
+      if (steps % stride != 0) return;
     }
     way.times.push_back(t);
     way.states.emplace_back(x, x + sizes_.size());
