@@ -14,9 +14,9 @@ namespace casimir {
 
 /// Watches along a run in double precision whether it comes to a place from which more than one
 /// solution may go on: where the argument u of a root is zero at which the equations are not
-/// Lipschitz continuous (RootZeros), and the motion does not cross the place. One with du/dt != 0
-/// there has u for its time, and is the only one; x' = -sqrt|x| may stay at 0, or go on. A place
-/// that is touched between two steps, and not passed, is not seen.
+/// Lipschitz continuous (RootZeros), and du/dt goes to zero with u, and more slowly than u. A
+/// motion with du/dt != 0 there has u for its time, and is the only one; x' = -sqrt|x| may stay at
+/// 0, or go on. A place that is touched between two steps, and not passed, is not seen.
 class PartingSolutions {
  public:
   explicit PartingSolutions(const PreparedScene& run);

@@ -273,8 +273,9 @@ class Judge {
     if (trajectory.status == Status::ok) doubt_small_states();
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings,
                            drifts.which.empty() ? trajectory : without_drifts(drifts.which));
-    result_.trust.one_of_several = parting_->time();
-    if (parting_->time()) result_.trust.error_estimate = std::max(result_.trust.error_estimate, 1.);
+    if (trajectory.status == Status::ok) result_.trust.one_of_several = parting_->time();
+    if (result_.trust.one_of_several)
+      result_.trust.error_estimate = std::max(result_.trust.error_estimate, 1.);
     constexpr double kWrongByOverflow = 1e-6;
     if (trajectory.status == Status::ok && result_.trust.overflow > kWrongByOverflow) {
       trajectory.status = Status::non_finite;

@@ -49,9 +49,10 @@ std::size_t end_of_letters(const std::string& text, std::size_t begin, std::size
     return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U;
   };
   std::size_t end = begin;
-  for (; end < text.size() && letters > 0; --letters) do
-      ++end;
-    while (end < text.size() && continues(end));
+  for (; end < text.size() && letters > 0; --letters) {
+    ++end;
+    while (end < text.size() && continues(end)) ++end;
+  }
   return end;
 }
 

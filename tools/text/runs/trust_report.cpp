@@ -54,7 +54,7 @@ std::vector<std::string> warnings_of_end(const ErrorEstimate& trust, bool consta
     warnings.push_back(fmt::format(
         "on the way a run with {} is {:.0e} of the size of the state away from this one, though "
         "both end in the same place: which way the motion took is decided by the errors of the "
-        "steps; --digits 30 follows it",
+        "steps; --digits 30 may follow it",
         constant_step ? "half the step" : "a tighter tolerance", *trust.parted));
   } else if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
     const bool by_rounding = trust.input_rounding > trust.error_estimate / 2;
