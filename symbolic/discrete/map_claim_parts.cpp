@@ -1,5 +1,7 @@
 #include "symbolic/discrete/map_claim_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -7,6 +9,15 @@ namespace casimir::discrete {
 
 Residual difference(Prover& prover, std::string label, const GiNaC::ex& value) {
   return {std::move(label), prover.convert(value), [value] { return value; }};
+}
+
+std::vector<Residual> level_images(Prover& prover, const MapModel& map,
+                                   const std::vector<NamedExpression>& level) {
+  std::vector<Residual> residuals;
+  for (const NamedExpression& f : level)
+    residuals.push_back(
+        difference(prover, fmt::format("{} at the next point", f.name), map.composed(f.value)));
+  return residuals;
 }
 
 void append(std::vector<GiNaC::ex>& list, const std::vector<GiNaC::ex>& more) {

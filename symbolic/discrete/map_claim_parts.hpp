@@ -14,6 +14,10 @@ namespace casimir::discrete {
 /// That a function vanishes.
 Residual difference(Prover& prover, std::string label, const GiNaC::ex& value);
 
+/// That the common zero level of the functions is carried into itself.
+std::vector<Residual> level_images(Prover& prover, const MapModel& map,
+                                   const std::vector<NamedExpression>& level);
+
 void append(std::vector<GiNaC::ex>& list, const std::vector<GiNaC::ex>& more);
 
 /// The map, and the functions with what they are defined by, at x and at x'.

@@ -8,11 +8,10 @@
 #include <algorithm>
 
 #include "symbolic/discrete/map_claim_parts.hpp"
-#include "symbolic/discrete/map_inverse.hpp"
-#include "symbolic/discrete/map_jacobian.hpp"
+#include "symbolic/discrete/map_measure_claim.hpp"
 #include "symbolic/discrete/values_between_steps.hpp"
 #include "symbolic/expression/expression_size.hpp"
-#include "symbolic/proof/claims/density.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
@@ -21,15 +20,6 @@ namespace {
 
 using GiNaC::ex;
 using Functions = std::vector<NamedExpression>;
-
-/// That the common zero level of the functions is carried into itself.
-std::vector<Residual> level_images(Prover& prover, const MapModel& map, const Functions& level) {
-  std::vector<Residual> residuals;
-  for (const NamedExpression& f : level)
-    residuals.push_back(
-        difference(prover, fmt::format("{} at the next point", f.name), map.composed(f.value)));
-  return residuals;
-}
 
 /// Decides what is said of one map of a composition, in a ring of its own: what another step takes
 /// the root of is positive at another point.
@@ -143,85 +133,6 @@ Claim whole_relation_claim(const MapModel& map, const NamedExpression& f, const 
   return claim;
 }
 
-/// Whether rho(x') det is rho(x) at some points and -rho(x) at others, as of a map that reflects
-/// one half of the plane; then the claim, which was decided for one sign, is proved. At a point
-/// where the one is refuted the other may hold: where signs of functions may change, nothing is
-/// refuted that is not for their product.
-bool has_another_sign_on_pieces(Prover& prover, Proof& proof, const Polynomial& image,
-                                const Polynomial& own) {
-  if (proof.verdict != Verdict::refuted || prover.ring().is_polynomial()) return false;
-  Proof both;
-  both.kind = proof.kind;
-  both.name = proof.name;
-  const Polynomial product = (image - own) * (image + own);
-  prover.decide(
-      both,
-      {{"the square of the density at the next point times the Jacobian determinant, less "
-        "that of itself",
-        product, [&prover, product] { return prover.ring().expression(product); }}},
-      {});
-  if (both.verdict == Verdict::refuted && !prover.ring().rests_on_what_was_converted())
-    return false;
-  proof = std::move(both);
-  return proof.verdict == Verdict::proved;
-}
-
-/// By the change of variables x' = phi(x) the measure |rho| dx is kept, near every point at which
-/// the Jacobian determinant is not zero, exactly where rho(x') det(dx'/dx) is rho(x) or -rho(x).
-/// Globally, where the map is one to one besides.
-Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
-  Claim claim{
-      ClaimKind::measure, density.name, false, [&map, density](Prover& prover, Proof& proof) {
-        for (const NamedExpression& c : map.base.constraints) {
-          if (prover.is_zero(prover.convert(map.composed(c.value) - c.value))) continue;
-          proof.reason = kNoMeasureOnConstraints;
-          return;
-        }
-        const Polynomial image = prover.convert(map.composed(density.value)) *
-                                 determinant(prover.ring().ring(), jacobian(prover, map));
-        const Polynomial own = prover.convert(density.value);
-        const auto residual = [&](int sign) -> Residual {
-          return {fmt::format("({}) at the next point times the Jacobian determinant, {} itself",
-                              density.name, sign > 0 ? "less" : "plus"),
-                  sign > 0 ? image - own : image + own, [&map, density, sign] {
-                    return map.composed(density.value) * jacobian_determinant(map) -
-                           sign * density.value;
-                  }};
-        };
-        const bool reverses = !prover.is_zero(image - own) && prover.is_zero(image + own);
-        prover.decide(proof, {residual(reverses ? -1 : 1)}, {});
-        const bool bends = has_another_sign_on_pieces(prover, proof, image, own);
-        constexpr double kFewTerms = 1000;
-        const bool one_to_one = is_one_to_one(map, kFewTerms);
-        if (proof.verdict == Verdict::refuted && !one_to_one) {
-          proof.reason = fmt::format(
-              "the map does not keep ({}) times the volume near each point, but it is not shown to "
-              "be "
-              "one to one: the preimage of a set may have several parts that make up for it",
-              density.name);
-          proof.verdict = Verdict::undecided;
-          proof.residual.clear();
-          proof.witness.reset();
-        }
-        judge_density(prover, proof, density.value);
-        if (proof.verdict != Verdict::proved) return;
-        const auto add = [&](const char* text) {
-          proof.evidence += std::string(proof.evidence.empty() ? "" : "; ") + text;
-        };
-        if (reverses || bends)
-          add(bends ? "the map reverses the orientation that the density gives at some points"
-                    : "the map reverses the orientation that the density gives");
-        // Of a map that is not one to one the preimage of a set may have several parts, and their
-        // measure is that of the set only one by one: (x^2, y/(2*x)) doubles areas.
-        if (!one_to_one) proof.where.push_back("on sets on which the map is one to one");
-      }};
-  Functions all = map.base.constraints;
-  all.push_back(density);
-  claim.expressions = domain_of(map, all);
-  claim.subject = Subject::functions;
-  return claim;
-}
-
 std::string poisson_name(const MapModel& map) {
   return map.sign > 0 ? "Poisson map" : "anti-Poisson map";
 }
@@ -235,6 +146,52 @@ std::vector<ex> bracket_entries(const MapModel& map) {
   return entries;
 }
 
+/// {x_i', x_j'} less what the bracket is at x', for i < j.
+std::vector<Residual> poisson_defects(Prover& prover, const MapModel& map,
+                                      const std::vector<ex>& images) {
+  const auto& x = map.base.variables;
+  std::vector<Residual> residuals;
+  auto image = images.begin();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t j = i + 1; j < x.size(); ++j, ++image) {
+      const ex& expected = *image;
+      residuals.push_back(
+          {fmt::format("{{{}', {}'}} less its image", x[i].get_name(), x[j].get_name()),
+           prover.bracket(prover.convert(map.next[i]), prover.convert(map.next[j])) -
+               prover.convert(expected),
+           [&map, i, j, expected] {
+             return map.base.poisson->bracket(map.next[i], map.next[j]) - expected;
+           }});
+    }
+  }
+  return residuals;
+}
+
+/// On constraints that are Casimir functions the bracket of two functions there needs nothing of
+/// them nearby, so that the map has to be Poisson there alone, if it stays there.
+void decide_poisson(Prover& prover, Proof& proof, const MapModel& map,
+                    const std::vector<ex>& images) {
+  const std::vector<Residual> defects = poisson_defects(prover, map, images);
+  Functions on;
+  decide_within_constraints(
+      prover, proof, {},
+      [&](Proof& own, const Functions& level) {
+        on = level;
+        std::vector<Residual> residuals = level_images(prover, map, on);
+        residuals.insert(residuals.end(), defects.begin(), defects.end());
+        prover.decide(own, residuals, prover.level(on));
+      },
+      [&](const Proof& open) {
+        return is_open_on_constraints(prover, open) && constraints_are_casimirs(prover);
+      });
+  if (on.empty()) return prover.say_where_differentiable(proof, map.next);
+  if (proof.verdict != Verdict::proved) return;
+  Functions next;
+  for (std::size_t i = 0; i < map.next.size(); ++i)
+    next.push_back({map.base.variables[i].get_name() + "'", map.next[i], {}});
+  prover.is_smooth_on(proof, prover.level(on), next);
+}
+
 Claim whole_poisson_claim(const MapModel& map) {
   const std::size_t n = map.next.size();
   std::vector<ex> images, parts;
@@ -245,25 +202,8 @@ Claim whole_poisson_claim(const MapModel& map) {
     }
   }
   Claim claim{
-      ClaimKind::map, poisson_name(map), false, [&map, images](Prover& prover, Proof& proof) {
-        const auto& x = map.base.variables;
-        std::vector<Residual> residuals;
-        auto image = images.begin();
-        for (std::size_t i = 0; i < x.size(); ++i) {
-          for (std::size_t j = i + 1; j < x.size(); ++j, ++image) {
-            const ex& expected = *image;
-            residuals.push_back(
-                {fmt::format("{{{}', {}'}} less its image", x[i].get_name(), x[j].get_name()),
-                 prover.bracket(prover.convert(map.next[i]), prover.convert(map.next[j])) -
-                     prover.convert(expected),
-                 [&map, i, j, expected] {
-                   return map.base.poisson->bracket(map.next[i], map.next[j]) - expected;
-                 }});
-          }
-        }
-        prover.decide(proof, residuals, {});
-        prover.say_where_differentiable(proof, map.next);
-      }};
+      ClaimKind::map, poisson_name(map), false,
+      [&map, images](Prover& prover, Proof& proof) { decide_poisson(prover, proof, map, images); }};
   claim.expressions = domain_of(map, {});
   append(claim.expressions, parts);
   for (const ex& part : map.base.bracket_domain)
@@ -285,8 +225,9 @@ Claim invariant_relation_claim(const MapModel& map, const NamedExpression& f, co
 }
 
 Claim measure_claim(const MapModel& map, const NamedExpression& density) {
-  return by_steps(map, ClaimKind::measure, density.name, values_of(Functions{density}),
-                  [density](const MapModel& own) { return whole_measure_claim(own, density); });
+  return by_steps(
+      map, ClaimKind::measure, density.name, values_of(Functions{density}),
+      [density](const MapModel& own) { return measure_claim_of_one_map(own, density); });
 }
 
 Claim casimir_claim(const MapModel& /*map*/, const NamedExpression& f, const Functions& on) {

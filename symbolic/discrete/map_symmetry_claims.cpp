@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "symbolic/discrete/map_claim_parts.hpp"
 #include "symbolic/discrete/map_claims.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
 namespace casimir::discrete {
@@ -64,14 +67,51 @@ void judge_invertible(Prover& prover, Proof& proof, const std::string& name,
                           : fmt::format("'{}' is not shown to be invertible", name);
 }
 
-/// Why nothing is said of a symmetry; empty where something is. On constraints S may be singular
-/// though it is not beside them, and it may lead out of them; and what is assumed may be wrong
-/// where it leads, unless S changes nothing of that, or multiplies it by a positive number.
+/// The gradients of constraints at f(x), for those at x.
+std::function<PolynomialRows(const PolynomialRows&)> slopes_at(Prover& prover, GiNaC::exmap image) {
+  return [&prover, image = std::move(image)](const PolynomialRows& slopes) {
+    const FunctionRing& ring = prover.ring();
+    PolynomialRows result;
+    for (const auto& slope : slopes) {
+      auto& row = result.emplace_back();
+      for (const Polynomial& p : slope)
+        row.push_back(prover.convert(substituted(ring.expression(p), image, ring.limits())));
+    }
+    return result;
+  };
+}
+
+/// Hypothesis of a symmetry on constraints, which may be singular on them though it is not beside
+/// them: the parameters that it carries along and, for fixed ones, the state can be told from their
+/// images.
+void judge_symmetry_on_constraints(Prover& prover, Proof& proof, const MapModel& map,
+                                   const MapSymmetry& symmetry) {
+  if (!symmetry.parameters.empty())
+    judge_invertible(prover, proof, symmetry.name, symmetry.parameters, map.base.parameters);
+  if (proof.verdict != Verdict::proved) return;
+  require_local_inverse_on_constraints(
+      prover, proof, derivatives_of(prover, symmetry.variables, map.base.variables),
+      slopes_at(prover, image_of(map, symmetry)));
+  if (proof.verdict != Verdict::proved)
+    proof.reason =
+        fmt::format("'{}' is not shown to be invertible on the constraints", symmetry.name);
+}
+
+/// What has to vanish on the constraints for map and symmetry to stay there.
+std::vector<Residual> constraints_left(Prover& prover, const MapModel& map,
+                                       const MapSymmetry& symmetry) {
+  std::vector<Residual> residuals = level_images(prover, map, map.base.constraints);
+  const GiNaC::exmap image = image_of(map, symmetry);
+  for (const NamedExpression& c : map.base.constraints)
+    residuals.push_back(difference(prover,
+                                   fmt::format("{} where '{}' leads", c.name, symmetry.name),
+                                   substituted(c.value, image, map.base.limits)));
+  return residuals;
+}
+
+/// Why nothing is said of a symmetry; empty where something is. What is assumed may be wrong where
+/// S leads, unless S changes nothing of that, or multiplies it by a positive number.
 std::string why_not_symmetry(const MapModel& map, const MapSymmetry& symmetry) {
-  if (!map.base.constraints.empty())
-    return fmt::format(
-        "whether '{}' keeps the constraints, and is invertible on them, is not known",
-        symmetry.name);
   const auto is_kept = [&](const Assumption& assumption) {
     const ex image = substituted(assumption.difference, image_of(map, symmetry), map.base.limits);
     return std::ranges::any_of(map.base.assumptions, [&](const Assumption& other) {
@@ -106,17 +146,22 @@ Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
               [&map, symmetry, left, right](Prover& prover, Proof& proof) {
                 proof.reason = why_not_symmetry(map, symmetry);
                 if (!proof.reason.empty()) return;
-                std::vector<Residual> residuals;
+                const bool constrained = !map.base.constraints.empty();
+                std::vector<Residual> residuals = constraints_left(prover, map, symmetry);
                 for (std::size_t i = 0; i < left.size(); ++i)
-                  residuals.push_back(
-                      difference(prover, map.base.variables[i].get_name(), left[i] - right[i]));
-                prover.decide(proof, residuals, {});
+                  residuals.push_back(difference(
+                      prover, fmt::format("the difference in {}", map.base.variables[i].get_name()),
+                      left[i] - right[i]));
+                prover.decide(proof, residuals, prover.level(map.base.constraints));
+                if (constrained) return judge_symmetry_on_constraints(prover, proof, map, symmetry);
                 std::vector<ex> images = symmetry.variables;
                 images.insert(images.end(), symmetry.parameters.begin(), symmetry.parameters.end());
                 std::vector<GiNaC::symbol> by = map.base.symbols();
                 judge_invertible(prover, proof, symmetry.name, images, by);
               }};
-  claim.expressions = domain_of(map, {});
+  claim.expressions = domain_of(map, map.base.constraints);
+  for (const NamedExpression& c : map.base.constraints)
+    append(claim.expressions, substituted_with_parts(c.value, image, map.base.limits));
   // The map where S leads, and S where the map leads; of a reversal, the map at S(phi(x)).
   std::vector<ex> parts = symmetry.domain;
   append(parts, symmetry.variables);
@@ -156,15 +201,16 @@ Conjugated conjugated(const MapModel& map, const MapConjugacy& conjugacy) {
   return result;
 }
 
-/// Why nothing is said of conjugacies; empty where something is. On constraints phi may be singular
-/// though it is not beside them, and a map may leave the domain that its signs are taken from.
+/// Why nothing is said of conjugacies; empty where something is. A map may leave the domain that
+/// its signs are taken from.
 std::string why_not_conjugated(const Model& model) {
-  if (!model.constraints.empty()) return "whether it is invertible on the constraints is not known";
   for (const Assumption& assumption : model.assumptions)
     for (const GiNaC::symbol& x : model.variables)
       if (assumption.difference.has(x)) return "whether the map stays in the domain is not known";
   return {};
 }
+
+constexpr const char* kLocally = "locally: near almost all points it is invertible";
 
 /// Hypothesis of a conjugacy phi: it is invertible where the map leads, too. Else a map into points
 /// where phi is singular would be conjugate to every map of the one value that phi has there. Shown
@@ -176,13 +222,31 @@ void judge_invertible_at_image(Prover& prover, Proof& proof, const MapModel& map
   there.verdict = Verdict::proved;
   judge_invertible(prover, there, conjugacy.name, after, map.base.variables);
   if (there.verdict == Verdict::proved) {
-    proof.evidence = "locally: near almost all points it is invertible";
+    proof.evidence = kLocally;
     add_conditions(proof, there.where);
     return;
   }
   proof.verdict = Verdict::undecided;
   proof.reason =
       fmt::format("'{}' is not shown to be invertible where the map leads", conjugacy.name);
+}
+
+/// The same on constraints, where phi may be singular though it is not beside them: there it is
+/// asked for phi, and for phi F, and that F leads to where the constraints are as smooth.
+void judge_conjugacy_on_constraints(Prover& prover, Proof& proof, const MapModel& map,
+                                    const MapConjugacy& conjugacy, const std::vector<ex>& after) {
+  if (proof.verdict != Verdict::proved) return;
+  GiNaC::exmap next;
+  for (std::size_t i = 0; i < map.next.size(); ++i) next[map.base.variables[i]] = map.next[i];
+  require_local_inverse_on_constraints(
+      prover, proof, derivatives_of(prover, conjugacy.expressions, map.base.variables), {});
+  require_local_inverse_on_constraints(
+      prover, proof, derivatives_of(prover, after, map.base.variables), slopes_at(prover, next));
+  if (proof.verdict == Verdict::proved)
+    proof.evidence = kLocally;
+  else
+    proof.reason =
+        fmt::format("'{}' is not shown to be invertible on the constraints", conjugacy.name);
 }
 
 /// phi(F(x)) = G(phi(x)), or G(phi(F(x))) = phi(x), where both sides have values, and phi is
@@ -195,15 +259,18 @@ Claim whole_conjugacy_claim(const MapModel& map, const MapConjugacy& conjugacy) 
       [&map, conjugacy, expected, at](Prover& prover, Proof& proof) {
         proof.reason = why_not_conjugated(map.base);
         if (!proof.reason.empty()) return;
-        std::vector<Residual> residuals;
+        std::vector<Residual> residuals = level_images(prover, map, map.base.constraints);
         for (std::size_t i = 0; i < at.other.size(); ++i)
-          residuals.push_back(
-              difference(prover, conjugacy.coordinates[i].get_name(), expected[i] - at.other[i]));
-        prover.decide(proof, residuals, {});
+          residuals.push_back(difference(
+              prover, fmt::format("the difference in {}", conjugacy.coordinates[i].get_name()),
+              expected[i] - at.other[i]));
+        prover.decide(proof, residuals, prover.level(map.base.constraints));
+        if (!map.base.constraints.empty())
+          return judge_conjugacy_on_constraints(prover, proof, map, conjugacy, at.after);
         judge_invertible(prover, proof, conjugacy.name, conjugacy.expressions, map.base.variables);
         judge_invertible_at_image(prover, proof, map, conjugacy, at.after);
       }};
-  claim.expressions = domain_of(map, {});
+  claim.expressions = domain_of(map, map.base.constraints);
   for (const auto* list : {&conjugacy.expressions, &conjugacy.domain}) {
     for (const ex& part : *list) {
       claim.expressions.push_back(part);

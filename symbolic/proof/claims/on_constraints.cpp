@@ -122,6 +122,19 @@ void require_independence_on_constraints(Prover& prover, Proof& proof,
            {std::move(together), varying.size(), constraints.slopes()}});
 }
 
+void require_local_inverse_on_constraints(
+    Prover& prover, Proof& proof, const PolynomialRows& derivatives,
+    const std::function<PolynomialRows(const PolynomialRows&)>& slopes_at) {
+  if (!may_be_asked(prover, proof)) return;
+  const ConstraintSet constraints(prover);
+  PolynomialRows together = constraints.slopes();
+  together.insert(together.end(), derivatives.begin(), derivatives.end());
+  std::vector<RankedRows> all{{std::move(together), prover.dimension()}};
+  all.push_back({slopes_at ? slopes_at(constraints.slopes()) : constraints.slopes(), 0,
+                 constraints.slopes()});
+  require(prover, proof, constraints, all);
+}
+
 void decide_within_constraints(Prover& prover, Proof& proof, const std::vector<NamedExpression>& on,
                                const DecideOnLevel& decide,
                                const std::function<bool(const Proof&)>& is_open) {

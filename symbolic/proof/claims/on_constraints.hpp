@@ -24,6 +24,21 @@ void require_on_constraints(Prover& prover, Proof& proof, const std::vector<Rank
 void require_independence_on_constraints(Prover& prover, Proof& proof,
                                          const std::vector<NamedExpression>& functions);
 
+/// The same for a map f that is shown to have its values, on the constraints, on a set of as many
+/// dimensions: leaves its proof undecided, unless f is invertible near some exact point of them.
+///
+/// Theorem: where the constraints c are a smooth set around a point, with the tangent vectors v
+/// that dc v = 0, f is one to one on it near that point if dc v = 0 and df v = 0 have only v = 0 in
+/// common (theorem on inverse functions). If it leads into the constraints themselves, it covers a
+/// neighbourhood of f(x) there, too, where dc has as large a rank there as at x.
+///
+/// \param derivatives  df by the variables
+/// \param slopes_at  the gradients of the constraints at the values of f, by those at x; empty where
+///                   f leads elsewhere
+void require_local_inverse_on_constraints(
+    Prover& prover, Proof& proof, const PolynomialRows& derivatives,
+    const std::function<PolynomialRows(const PolynomialRows&)>& slopes_at);
+
 /// Decides a claim on the common zero level of functions.
 using DecideOnLevel = std::function<void(Proof&, const std::vector<NamedExpression>& on)>;
 
