@@ -31,12 +31,18 @@ struct Hdf5Attribute {
   const char* text;
 };
 
-/// Writes a file. \returns whether it is written
-using WriteHdf5 = bool(const char* path, const Hdf5Array* arrays, std::size_t array_count,
-                       const Hdf5Attribute* attributes, std::size_t attribute_count);
+/// Takes the bytes of a file, all at once.
+using TakeBytes = void(void* taker, const char* bytes, std::size_t count);
 
-/// The name of the module and of the `WriteHdf5` in it.
+/// Makes a file in memory: the library itself writes much of a file, and finds that there is no
+/// room, only where it closes it, says so to nobody, and ends the program at its end.
+/// \returns whether it was made, and taken
+using MakeHdf5 = bool(const Hdf5Array* arrays, std::size_t array_count,
+                      const Hdf5Attribute* attributes, std::size_t attribute_count, TakeBytes* take,
+                      void* taker);
+
+/// The name of the module and of the `MakeHdf5` in it.
 inline constexpr const char* kHdf5Module = "casimir_hdf5";
-inline constexpr const char* kWriteHdf5 = "casimir_write_hdf5";
+inline constexpr const char* kMakeHdf5 = "casimir_make_hdf5";
 
 }  // namespace casimir::tools

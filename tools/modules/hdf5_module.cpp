@@ -80,24 +80,44 @@ void write_attribute(hid_t file, const Hdf5Attribute& fact) {
   check(H5Awrite(attribute, type, fact.text));
 }
 
+void write_all(hid_t file, const Hdf5Array* arrays, std::size_t array_count,
+               const Hdf5Attribute* attributes, std::size_t attribute_count) {
+  std::optional<Handle> axes;
+  for (std::size_t k = 0; k < array_count; ++k) {
+    if (!axes && std::strncmp(arrays[k].name, "axes/", 5) == 0)
+      axes.emplace(H5Gcreate2(file, "axes", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    write_array(file, arrays[k]);
+  }
+  for (std::size_t k = 0; k < attribute_count; ++k) write_attribute(file, attributes[k]);
+}
+
+/// Memory that grows by so much at a time, and is not written to a file when it is closed.
+hid_t memory() {
+  constexpr std::size_t kIncrement = std::size_t{1} << 20;
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  if (access >= 0) check(H5Pset_fapl_core(access, kIncrement, false));
+  return access;
+}
+
 }  // namespace
 }  // namespace casimir::tools
 
-extern "C" bool casimir_write_hdf5(const char* path, const casimir::tools::Hdf5Array* arrays,
-                                   std::size_t array_count,
-                                   const casimir::tools::Hdf5Attribute* attributes,
-                                   std::size_t attribute_count) {
+extern "C" bool casimir_make_hdf5(const casimir::tools::Hdf5Array* arrays, std::size_t array_count,
+                                  const casimir::tools::Hdf5Attribute* attributes,
+                                  std::size_t attribute_count, casimir::tools::TakeBytes* take,
+                                  void* taker) {
   using namespace casimir::tools;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
-    const Handle file(H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-    std::optional<Handle> axes;
-    for (std::size_t k = 0; k < array_count; ++k) {
-      if (!axes && std::strncmp(arrays[k].name, "axes/", 5) == 0)
-        axes.emplace(H5Gcreate2(file, "axes", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-      write_array(file, arrays[k]);
-    }
-    for (std::size_t k = 0; k < attribute_count; ++k) write_attribute(file, attributes[k]);
+    const Handle access(memory(), H5Pclose);
+    const Handle file(H5Fcreate("table.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+    write_all(file, arrays, array_count, attributes, attribute_count);
+    check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+    const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+    if (size < 0) return false;
+    std::vector<char> bytes(static_cast<std::size_t>(size));
+    if (H5Fget_file_image(file, bytes.data(), bytes.size()) != size) return false;
+    take(taker, bytes.data(), bytes.size());
     return true;
   } catch (const NotWritten&) {
     return false;

@@ -18,6 +18,7 @@
 #include "tools/plot/gnuplot.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/report.hpp"
+#include "tools/section/seeds.hpp"
 #include "tools/tables/table.hpp"
 #include "tools/text/files/ensemble_file.hpp"
 #include "tools/text/runs/run_report.hpp"
@@ -47,21 +48,17 @@ std::vector<FunctionText> plotted_pair(const MapModel& map, const MapSectionRequ
 std::vector<std::vector<double>> map_seeds(const std::string& path,
                                            const std::vector<std::string>& states,
                                            const Limits& limits) {
-  std::vector<std::string> known = states;
-  for (const char* name : {"orbit", "n", "t", "u", "v"})
-    if (!std::ranges::count(known, name)) known.emplace_back(name);
-  const EnsembleFile file = read_ensemble(path, known, limits);
+  const EnsembleFile file = read_seeds(path, states, limits);
+  const std::vector<std::optional<std::size_t>> columns = columns_of(file, states);
   std::vector<std::vector<double>> seeds(file.rows());
-  for (const std::string& state : states) {
-    const auto column = std::ranges::find(file.columns, state);
-    if (column == file.columns.end())
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!columns[i])
       throw UsageError(
           fmt::format("{}: seeds of a map need a column for each variable, and '{}' "
                       "is missing",
-                      printable(path, 200), state));
-    const auto at = static_cast<std::size_t>(column - file.columns.begin());
+                      printable(path, 200), states[i]));
     for (std::size_t row = 0; row < seeds.size(); ++row)
-      seeds[row].push_back(file.values[row * file.columns.size() + at]);
+      seeds[row].push_back(file.values[row * file.columns.size() + *columns[i]]);
   }
   return seeds;
 }
@@ -96,6 +93,8 @@ class MapSection {
       reports_.push_back(orbits_.orbit(seeds[k], request_.points));
       progress.show(static_cast<double>(k + 1) / static_cast<double>(seeds.size()));
     }
+    if (std::string lost = lost_places(reports_, "points"); !lost.empty())
+      warnings_.push_back(std::move(lost));
     if (request_.rotation || request_.colour == "rotation")
       for (const OrbitReport& orbit : reports_) rotations_.push_back(rotation_of_map_orbit(orbit));
     seconds_ = watch.seconds();

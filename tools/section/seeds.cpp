@@ -7,7 +7,7 @@
 
 #include "tools/analysis/section/orbits.hpp"
 #include "tools/cli/errors.hpp"
-#include "tools/text/files/ensemble_file.hpp"
+#include "tools/tables/table.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -15,6 +15,13 @@ namespace {
 using Vector = LevelSet::Vector;
 
 constexpr std::size_t kTries = 12;
+
+/// Of the tables that `section` writes, the states last.
+std::vector<std::string> section_columns(const std::vector<std::string>& states) {
+  std::vector<std::string> names{"orbit", "n", "t", "u", "v"};
+  names.insert(names.end(), states.begin(), states.end());
+  return distinct_names(names);
+}
 
 std::optional<std::size_t> column_of(const EnsembleFile& file, const std::string& name) {
   const auto found = std::ranges::find(file.columns, name);
@@ -57,16 +64,35 @@ Vector state_at(const LevelSet& level, std::vector<PlacedPoint> near,
 
 }  // namespace
 
+EnsembleFile read_seeds(const std::string& path, const std::vector<std::string>& states,
+                        const Limits& limits) {
+  std::vector<std::string> known = section_columns(states);
+  for (const std::string& name : states)
+    if (!std::ranges::count(known, name)) known.push_back(name);
+  return read_ensemble(path, known, limits);
+}
+
+std::vector<std::optional<std::size_t>> columns_of(const EnsembleFile& file,
+                                                   const std::vector<std::string>& states) {
+  const std::vector<std::string> written = section_columns(states);
+  const std::size_t before = written.size() - states.size();
+  std::vector<std::optional<std::size_t>> own, plain;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    own.push_back(column_of(file, written[before + i]));
+    plain.push_back(column_of(file, states[i]));
+  }
+  const bool is_own = std::ranges::all_of(own, [](const auto& c) { return c.has_value(); });
+  return is_own ? own : plain;
+}
+
 std::vector<Vector> seeds_of(const std::string& path, const LevelSet& level,
                              const std::function<std::vector<PlacedPoint>()>& near) {
   const std::vector<std::string>& states = level.problem().run.specialisation.states;
-  std::vector<std::string> known = states;
-  for (const char* name : {"orbit", "n", "t", "u", "v"})
-    if (!std::ranges::count(known, name)) known.emplace_back(name);
-  const EnsembleFile file = read_ensemble(path, known, level.problem().run.specialisation.limits);
+  const EnsembleFile file = read_seeds(path, states, level.problem().run.specialisation.limits);
   const auto u = column_of(file, "u"), v = column_of(file, "v");
-  const bool whole = std::ranges::all_of(
-      states, [&](const auto& name) { return column_of(file, name).has_value(); });
+  const std::vector<std::optional<std::size_t>> columns = columns_of(file, states);
+  const bool whole =
+      std::ranges::all_of(columns, [](const auto& column) { return column.has_value(); });
   if (!whole && !(u && v))
     throw UsageError(fmt::format(
         "{}: seeds need a column for each variable, or the columns u and v", printable(path, 200)));
@@ -81,7 +107,7 @@ std::vector<Vector> seeds_of(const std::string& path, const LevelSet& level,
     }
     Vector x(static_cast<Eigen::Index>(states.size()));
     for (std::size_t i = 0; i < states.size(); ++i)
-      x[static_cast<Eigen::Index>(i)] = values[*column_of(file, states[i])];
+      x[static_cast<Eigen::Index>(i)] = values[*columns[i]];
     seeds.push_back(state_of(level, x, where));
   }
   return seeds;

@@ -1,11 +1,23 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/analysis/section/spread.hpp"
+#include "tools/text/files/ensemble_file.hpp"
 
 namespace casimir::tools {
+
+/// A CSV file with columns of states, and those that a table of `section` has beside them.
+/// \throws CaseError, UsageError  as `read_ensemble`
+EnsembleFile read_seeds(const std::string& path, const std::vector<std::string>& states,
+                        const Limits& limits);
+
+/// Where the file has the states, some of which `section` may have given another name, as one that
+/// is called u; nothing for those that it does not have.
+std::vector<std::optional<std::size_t>> columns_of(const EnsembleFile& file,
+                                                   const std::vector<std::string>& states);
 
 /// The seeds of a CSV file: a column for each variable, or the columns u and v, the plotted pair,
 /// for which a point of the level set is sought. What a section writes can be read.

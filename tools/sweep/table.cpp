@@ -37,11 +37,12 @@ Table arrays_of(const SweepTable& sweep) {
 void write_csv(const std::string& path, const SweepTable& table) {
   OutputFile file(path);
   std::ostream& out = file.stream();
-  out << "point";
-  for (const Axis& axis : table.grid.axes) out << ',' << csv_field(axis_title(axis));
-  out << ",status";
-  for (const std::string& name : table.columns) out << ',' << csv_field(name);
-  out << '\n';
+  std::vector<std::string> names{"point"};
+  for (const Axis& axis : table.grid.axes) names.push_back(axis_title(axis));
+  names.emplace_back("status");
+  names.insert(names.end(), table.columns.begin(), table.columns.end());
+  for (std::string& name : names = distinct_names(names)) name = csv_field(name);
+  out << fmt::format("{}\n", fmt::join(names, ","));
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     out << i + 1;
     for (const double x : table.grid.at(i)) out << ',' << exact_text(x);

@@ -1,9 +1,12 @@
 // Tables as HDF5: what h5py, Julia and MATLAB read as arrays.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <list>
 
+#include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/modules/hdf5_arrays.hpp"
@@ -78,29 +81,32 @@ class PlainArrays {
   std::list<std::vector<const char*>> words_;
 };
 
-WriteHdf5* writer() { return reinterpret_cast<WriteHdf5*>(module_symbol(kHdf5Module, kWriteHdf5)); }
+MakeHdf5* maker() { return reinterpret_cast<MakeHdf5*>(module_symbol(kHdf5Module, kMakeHdf5)); }
 
 }  // namespace
 
 bool has_hdf5() {
 #ifdef CASIMIR_HDF5
-  return writer() != nullptr;
+  return maker() != nullptr;
 #else
   return false;
 #endif
 }
 
 void write_hdf5(const std::string& path, const Table& table) {
-  WriteHdf5* const write = writer();
+  MakeHdf5* const make = maker();
   OutputFile output(path);
   const PlainArrays plain(table);
   std::vector<Hdf5Attribute> attributes;
   for (const auto& [name, text] : table.facts) attributes.push_back({name.c_str(), text.c_str()});
   if (!table.note.empty()) attributes.push_back({"note", table.note.c_str()});
   attributes.push_back({"casimir", CASIMIR_VERSION});
-  if (!write(output.temporary().c_str(), plain.arrays().data(), plain.arrays().size(),
-             attributes.data(), attributes.size()))
-    throw SystemError("HDF5 could not write the file");
+  const auto take = [](void* file, const char* bytes, std::size_t count) {
+    static_cast<OutputFile*>(file)->stream().write(bytes, static_cast<std::streamsize>(count));
+  };
+  if (!make(plain.arrays().data(), plain.arrays().size(), attributes.data(), attributes.size(),
+            take, &output))
+    throw SystemError(fmt::format("HDF5 cannot hold the table for '{}'", printable(path, 200)));
   output.commit();
 }
 

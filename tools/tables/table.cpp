@@ -52,11 +52,17 @@ class CellText {
   std::size_t row_;
 };
 
+std::vector<std::string> names_of(const Table& table) {
+  std::vector<std::string> names;
+  for (const Column& column : table.columns) names.push_back(column.name);
+  return names;
+}
+
 void write_text(const std::string& path, const Table& table) {
   OutputFile file(path);
   std::string line;
-  for (const Column& column : table.columns)
-    line += (line.empty() ? "" : ",") + csv_field(column.name);
+  for (const std::string& name : distinct_names(names_of(table)))
+    line += (line.empty() ? "" : ",") + csv_field(name);
   file.stream() << line << '\n';
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
   for (std::size_t row = 0; row < rows; ++row) {
@@ -98,16 +104,30 @@ std::size_t Column::size() const {
       cells);
 }
 
+std::vector<std::string> distinct_names(const std::vector<std::string>& names) {
+  std::vector<std::string> distinct;
+  for (std::string name : names) {
+    while (std::ranges::count(distinct, name) > 0) name += '_';
+    distinct.push_back(std::move(name));
+  }
+  return distinct;
+}
+
 std::vector<std::string> array_names(const Table& table) {
-  constexpr std::string_view kGroup = "axes/";
+  constexpr std::string_view kGroup = "axes/", kGroupName = "axes";
   std::vector<std::string> names;
+  bool has_group = false;
   for (const Column& column : table.columns) {
     std::string name = column.name;
-    const std::size_t start = name.starts_with(kGroup) ? kGroup.size() : 0;
-    std::replace(name.begin() + static_cast<std::ptrdiff_t>(start), name.end(), '/', '|');
-    while (std::ranges::count(names, name) > 0) name += '_';
-    names.push_back(name);
+    const bool in_group = name.starts_with(kGroup);
+    has_group = has_group || in_group;
+    std::replace(name.begin() + (in_group ? kGroup.size() : 0), name.end(), '/', '|');
+    names.push_back(std::move(name));
   }
+  if (!has_group) return distinct_names(names);
+  names.insert(names.begin(), std::string(kGroupName));
+  names = distinct_names(names);
+  names.erase(names.begin());
   return names;
 }
 

@@ -46,8 +46,12 @@ struct Table {
   std::string note = {};  ///< a sentence on why rows are missing; empty: none are
 };
 
-/// The names of the arrays in a file, one for each column: no slash but that of "axes/", and an
-/// underscore behind a name that stands for an earlier column already, as that of a variable `t`.
+/// Names that differ: an underscore behind one that stands for an earlier column already, as that
+/// of a variable `t`.
+std::vector<std::string> distinct_names(const std::vector<std::string>& names);
+
+/// The names of the arrays in a file, one for each column: distinct ones, with no slash but that of
+/// "axes/", the name of a group, which stands for no array then.
 std::vector<std::string> array_names(const Table& table);
 
 /// The names that a table may be written to, for usage and errors.

@@ -98,6 +98,8 @@ TEST(Fault, AFileWithoutRoomKeepsTheOldOne) {
            {"f.png", "integrate euler --plot f.png"},
            {"f.csv", "sweep euler --over a1=1:2:200 --output f.csv"},
            {"f.h5", "sweep euler --over a1=1:2:200 --output f.h5"},
+           // HDF5 itself would write this much where the file is closed.
+           {"f.h5", "integrate euler --duration 1 --every 0.5 --output f.h5"},
            {"f.hpp", "generate manakov-so5 -o f.hpp"},
            {"f.v", "verify manakov-so5 --certificate f.v"},
            {"f.html", "report euler-jacobi --budget 0 --output f.html"},

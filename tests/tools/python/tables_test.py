@@ -92,6 +92,24 @@ class Tables(unittest.TestCase):
         np.testing.assert_array_equal(arrays["u"], arrays["y"])
         np.testing.assert_array_equal(arrays["v"], arrays["v_"])
         self.assertGreater(arrays["u_"].min(), 0)
+        (self.folder / "t.toml").write_text(
+            'title = "x"\n[phase_space]\nvariables = ["t", "axes"]\n[equations]\nt = "1"\naxes = "2"\n'
+            '[[scene]]\nname = "default"\ninitial = { t = "3", axes = "0" }\nduration = "2"\n')
+        _, rows = self.both("integrate", "./t.toml", "--every", "1")
+        self.assertEqual([(row["t"], row["t_"]) for row in rows], [("0", "3"), ("1", "4"), ("2", "5")])
+        arrays, rows = self.both("sweep", "./t.toml", "--over", "t=0:1:2")
+        self.assertEqual(len(set(rows[0])), len(rows[0]))
+        self.assertEqual(float(rows[1]["axes"]), 4)
+        np.testing.assert_array_equal(arrays["axes_"], [4, 4])
+
+    @unittest.skipIf(shutil.which("h5dump") is None, "no h5dump")
+    def test_hdf5_has_a_group_of_axes_beside_a_variable_of_that_name(self):
+        (self.folder / "t.toml").write_text(
+            'title = "x"\n[phase_space]\nvariables = ["t", "axes"]\n[equations]\nt = "1"\naxes = "2"\n'
+            '[[scene]]\nname = "default"\ninitial = { t = "3", axes = "0" }\nduration = "2"\n')
+        code, errors = self.run_program("sweep", "./t.toml", "--over", "t=0:1:2", "--quiet", "--output", "x.h5")
+        self.assertEqual(code, 0, errors)
+        self.assertIn("(0): 4, 4", self.dump("-d", "/axes_"))
 
     def test_a_sweep_has_arrays_of_the_shape_of_its_grid(self):
         words = ("sweep", "kovalevskaya", "--over", "r=1:2:3", "--over", "M1=0:1:2", "--duration", "1")
