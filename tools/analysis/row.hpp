@@ -16,6 +16,7 @@ enum class RowEnd {
   crashed,         ///< its process ended without an answer
   does_not_split,  ///< the method splits the Hamiltonian, and this one does not split
   drifted,         ///< an invariant drifted beyond `Row::bound`
+  lost,            ///< an invariant has no value at some state; `Row::reason` is its name
   changes,  ///< no invariant drifted, and one has another rate than zero; `Row::reason` is its name
   changes_in_step,  ///< the same of a map: another value at the next point
 };

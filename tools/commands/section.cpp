@@ -118,10 +118,7 @@ class SectionCommand {
       throw SystemError(
           "the time limit was reached before the domain of possible motion was known");
     if (!domain_.empty()) return domain_;
-    if (tried == 0)
-      throw UsageError(fmt::format(
-          "no motion with {} was found that crosses the plane {}; {}", problem_.level_text(),
-          problem_.plane.upwards ? "upwards" : "downwards", energies_there(level_)));
+    if (tried == 0) throw UsageError(why_no_points(level_));
     throw UsageError(
         fmt::format("of {} orbits with {} that begin on the plane none comes back to it", tried,
                     problem_.level_text()));
@@ -203,16 +200,8 @@ class SectionCommand {
       report.warnings.push_back(
           fmt::format("{} of {} orbits do not come back to the plane often enough", lost,
                       report.orbits.size()));
-    std::size_t without_place = 0;
-    for (const OrbitReport& orbit : report.orbits)
-      without_place += static_cast<std::size_t>(
-          std::ranges::count_if(orbit.places, [](const std::array<double, 2>& place) {
-            return !std::isfinite(place[0]) || !std::isfinite(place[1]);
-          }));
-    if (without_place > 0)
-      report.warnings.push_back(fmt::format(
-          "at {} of {} crossings the plotted functions have no value: they are not drawn",
-          without_place, report.crossings()));
+    if (std::string places = lost_places(report.orbits, "crossings"); !places.empty())
+      report.warnings.push_back(std::move(places));
   }
 
   /// Tables first: pictures need a program that may be missing.

@@ -138,7 +138,10 @@ Row conserve_map(const MapModel& map, const Scene& scene, const std::optional<do
   // Written so that a drift that is not a number fails too.
   row.failed = row.status != Status::ok || !(row.drift <= bound);
   if (row.status == Status::ok && row.failed) {
-    row.end = RowEnd::drifted;
+    const auto lost = std::ranges::find_if(
+        run.invariants, [](const auto& invariant) { return !std::isfinite(invariant.drift); });
+    row.end = lost == run.invariants.end() ? RowEnd::drifted : RowEnd::lost;
+    if (row.end == RowEnd::lost) row.reason = lost->name;
     row.bound = bound;
   } else if (!row.failed) {
     if (auto name = changing_invariant(map, scene)) {

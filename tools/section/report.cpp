@@ -162,6 +162,20 @@ void print_cycles(const SectionReport& report) {
 
 }  // namespace
 
+std::string lost_places(const std::vector<OrbitReport>& orbits, const char* points) {
+  std::size_t lost = 0, all = 0;
+  for (const OrbitReport& orbit : orbits) {
+    all += orbit.places.size();
+    lost += static_cast<std::size_t>(
+        std::ranges::count_if(orbit.places, [](const std::array<double, 2>& place) {
+          return !std::isfinite(place[0]) || !std::isfinite(place[1]);
+        }));
+  }
+  if (lost == 0) return {};
+  return fmt::format("at {} of {} {} the plotted functions have no value: they are not drawn", lost,
+                     all, points);
+}
+
 std::size_t SectionReport::crossings() const {
   std::size_t count = 0;
   for (const OrbitReport& orbit : orbits) count += orbit.places.size();

@@ -34,6 +34,10 @@ struct SectionReport {
   std::size_t proved() const;
 };
 
+/// That the plotted functions have no value at some of the crossings (or what else the points are
+/// called); empty where they have one at all.
+std::string lost_places(const std::vector<OrbitReport>& orbits, const char* points);
+
 /// A table of orbit, n, t, u, v and the variables, as the name of the file says.
 void write_crossings(const SectionReport& report, const std::string& path);
 

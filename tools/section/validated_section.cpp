@@ -155,8 +155,8 @@ std::vector<std::vector<double>> starts_of_orbits(const SectionProblem& problem,
       problem, {request.tolerance, request.jobs, time_limit(common.time_limit)}, request.count);
   const std::vector<PlacedPoint> domain = points_of_domain(level, cutter.returning(), {});
   if (domain.empty())
-    throw UsageError(fmt::format("no motion with {} was found that comes back to the plane; {}",
-                                 problem.level_text(), energies_there(level)));
+    throw UsageError(
+        fmt::format("no motion was found that comes back to the plane: {}", why_no_points(level)));
   std::vector<std::vector<double>> starts;
   for (const PlacedPoint& point : spread_out(level, domain, request.count))
     starts.emplace_back(point.x.data(), point.x.data() + point.x.size());

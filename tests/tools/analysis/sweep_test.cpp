@@ -15,7 +15,6 @@
 #include "tests/folder.hpp"
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/error.hpp"
-#include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/sweep/indicators.hpp"
 #include "tools/analysis/sweep/integrations.hpp"
 #include "tools/analysis/sweep/lyapunov.hpp"
@@ -178,25 +177,6 @@ TEST(Exponents, OfASaddleIsItsEigenvalueAndOfACentreNone) {
   EXPECT_NEAR(exponent(-4, -200), 2, 0.02);  // what grows back in time grows
 }
 
-/// A rotation, whose G is an integral where x > 0 alone, which it leaves.
-const char* const kLeavesItsDomain = R"toml(
-title = "leaves"
-[phase_space]
-variables = ["x", "y", "z"]
-domain = ["x > 0"]
-[equations]
-x = "y"
-y = "-x"
-z = "y"
-[integrals]
-F = "x^2 + y^2"
-G = "z - sqrt(x^2)"
-[[scene]]
-name = "default"
-initial = { x = "1", y = "0", z = "0" }
-duration = "100"
-)toml";
-
 TEST(Indicators, KeepToIntegralsThatHoldWhereverTheMotionGoes) {
   const Model model = model_of(kLeavesItsDomain);
   const Scene& scene = model.scene("default");
@@ -210,22 +190,6 @@ TEST(Indicators, KeepToIntegralsThatHoldWhereverTheMotionGoes) {
   const PointResult result = task.run({0}, 1, {}).front();
   EXPECT_EQ(result.status, Status::ok);
   EXPECT_NEAR(result.values[1], 0, 0.1);  // deviations of a rotation do not grow
-}
-
-TEST(DriftCheck, AnIntegralOnTheDomainAloneSaysNothingOfTheRun) {
-  const Model model = model_of(kLeavesItsDomain);
-  const Scene& scene = model.scene("default");
-  EXPECT_EQ(known_invariant(model, scene, "F").proof.verdict, Verdict::proved);
-  const KnownInvariant known = known_invariant(model, scene, "G");
-  EXPECT_NE(known.proof.verdict, Verdict::proved);
-  EXPECT_TRUE(known.on_domain);
-  Trajectory run;
-  run.invariants = {{.initial = 1, .final = 1, .drift = 0, .allowed = 1e-9},
-                    {.initial = -1, .final = 0, .drift = 1, .allowed = 1e-9}};
-  const DriftDoubts doubts = check_drift(model, scene, {"F", "G"}, run);
-  EXPECT_EQ(run.status, Status::ok);
-  ASSERT_EQ(doubts.sentences.size(), 1U);
-  EXPECT_NE(doubts.sentences[0].find("on the domain of the case alone"), std::string::npos);
 }
 
 TEST(Exponents, EquationsThatDependOnTheTimeHaveNone) {

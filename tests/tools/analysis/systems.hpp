@@ -37,4 +37,23 @@ inline Model driven_equation(const std::string& rate) {
       rate + "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"0\" }\nduration = \"4\"\n");
 }
 
+/// A rotation, whose G is an integral where x > 0 alone, which it leaves.
+inline constexpr const char* kLeavesItsDomain = R"toml(
+title = "leaves"
+[phase_space]
+variables = ["x", "y", "z"]
+domain = ["x > 0"]
+[equations]
+x = "y"
+y = "-x"
+z = "y"
+[integrals]
+F = "x^2 + y^2"
+G = "z - sqrt(x^2)"
+[[scene]]
+name = "default"
+initial = { x = "1", y = "0", z = "0" }
+duration = "100"
+)toml";
+
 }  // namespace casimir::test

@@ -212,5 +212,30 @@ duration = "9"
   }
 }
 
+/// x y is 0 all along the orbit: nothing of it is rounded.
+TEST(MapOrbits, AnIntegralWithoutAValueSaysNothingOfThem) {
+  const Folder folder;
+  folder.write("turn.toml", R"toml(title = "turn"
+[phase_space]
+variables = ["x", "y"]
+[map]
+x = "-y"
+y = "x"
+[integrals]
+F = "(x^2 - y^2)^2/(x*y)^2"
+[[scene]]
+name = "default"
+initial = { x = "2", y = "0" }
+duration = "10"
+)toml");
+  const std::string warnings =
+      run_in(folder, {"integrate", "./turn.toml", "--json"}).json().at("warnings").dump();
+  EXPECT_TRUE(has(warnings, "F has no value at some state of the run")) << warnings;
+  EXPECT_FALSE(has(warnings, "rounding")) << warnings;
+  const Outcome kept = run_in(folder, {"conserve", "./turn.toml"});
+  EXPECT_EQ(kept.status, 1);
+  EXPECT_TRUE(has(kept.out, "F has no value at some state, and cannot be watched")) << kept.out;
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -267,8 +267,7 @@ class Judge {
     if (asked.step && (asked.rtol || asked.atol || asked.tolerance))
       doubts.emplace_back(
           "a constant step is not controlled by its error: the tolerance bounds nothing");
-    DriftDoubts drifts =
-        check_drift(model_, scene_, run_.specialisation.invariant_names, trajectory);
+    DriftDoubts drifts = check_drift(model_, scene_, run_, trajectory);
     std::ranges::move(drifts.sentences, std::back_inserter(doubts));
     if (trajectory.status == Status::ok) doubt_small_states();
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings,

@@ -56,7 +56,8 @@ Trajectory trajectory_of(const Model& model, const PreparedScene& run, const Met
 }
 
 /// What the trajectory says in a row of its own.
-void judge_conservation(Row& row, const Trajectory& trajectory, const Scene& scene, double bound) {
+void judge_conservation(Row& row, const Trajectory& trajectory, const Scene& scene, double bound,
+                        const std::vector<std::string>& names) {
   row.drift = largest_drift(trajectory);
   row.seconds = trajectory.seconds;
   row.steps = trajectory.steps;
@@ -66,7 +67,11 @@ void judge_conservation(Row& row, const Trajectory& trajectory, const Scene& sce
   // Written so that a drift that is not a number fails too.
   row.failed = !row.refused && (trajectory.status != Status::ok || !(row.drift <= bound));
   if (trajectory.status == Status::ok && row.failed) {
-    row.end = RowEnd::drifted;
+    const auto lost = std::ranges::find_if(
+        trajectory.invariants, [](const auto& record) { return !std::isfinite(record.drift); });
+    row.end = lost == trajectory.invariants.end() ? RowEnd::drifted : RowEnd::lost;
+    if (row.end == RowEnd::lost)
+      row.reason = names.at(static_cast<std::size_t>(lost - trajectory.invariants.begin()));
     row.bound = bound;
   }
   if (trajectory.invariants.empty()) row.drift = std::numeric_limits<double>::quiet_NaN();
@@ -118,7 +123,7 @@ Conservation conserve(const Model& model, const Scene& scene, const Method& meth
   }
   const Trajectory& trajectory =
       result.trajectory.emplace(trajectory_of(model, run, method, settings));
-  judge_conservation(row, trajectory, scene, options.bound);
+  judge_conservation(row, trajectory, scene, options.bound, result.invariants);
   if (row.ok())
     if (auto name = changing_invariant(model, scene, ends_of(model, scene, run, trajectory),
                                        {0, trajectory.time})) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/analysis/proof/prove_in_process.hpp"
 
@@ -44,9 +45,18 @@ std::vector<std::string> doubts_of_orbit(const MapModel& map, const Iterated& or
   const auto changes = [&](const Iterated::Invariant& one) { return one.drift > allowed; };
   std::vector<std::string> doubts;
   if (std::ranges::none_of(orbit.invariants, changes)) return doubts;
-  const std::vector<Proof> proofs = prove_within(kSecondsForOrbit, map, {}, {});
+  const auto says_something = [&](const Iterated::Invariant& one) {
+    return changes(one) && std::isfinite(one.drift);
+  };
+  const std::vector<Proof> proofs = std::ranges::any_of(orbit.invariants, says_something)
+                                        ? prove_within(kSecondsForOrbit, map, {}, {})
+                                        : std::vector<Proof>{};
   for (const Iterated::Invariant& one : orbit.invariants) {
     if (!changes(one)) continue;
+    if (!std::isfinite(one.drift)) {
+      doubts.push_back(words_of_lost_invariant(one.name));
+      continue;
+    }
     const auto found = std::ranges::find_if(proofs, [&](const Proof& proof) {
       return proof.name == one.name &&
              (proof.kind == ClaimKind::integral || proof.kind == ClaimKind::conditional ||

@@ -6,10 +6,11 @@
 #include "runtime/integrate.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/prove.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
 
 namespace casimir {
 
-/// Invariants that drifted and are not proved to be integrals.
+/// Invariants that drifted and say nothing about the run.
 struct DriftDoubts {
   std::vector<std::size_t> which;      ///< among those of the trajectory
   std::vector<std::string> sentences;  ///< one about each
@@ -17,10 +18,14 @@ struct DriftDoubts {
 
 /// Looks at the invariants that drifted by more than the tolerance allows. One that is proved to be
 /// an integral of the case turns an `ok` into `drift_exceeded`; one that is not proves nothing
-/// about the run.
-/// \param names  of the invariants of the trajectory, "H" and those of the file
-DriftDoubts check_drift(const Model& model, const Scene& scene,
-                        const std::vector<std::string>& names, Trajectory& trajectory);
+/// about the run, nor does one that has no value at some state, or that changes as much where the
+/// state does by what is allowed: f^2/(f - 1) is an integral where f is one, and infinite at f = 1.
+/// \param run  of the trajectory; its invariants are "H" and those of the file
+DriftDoubts check_drift(const Model& model, const Scene& scene, const PreparedScene& run,
+                        Trajectory& trajectory);
+
+/// The sentence about an invariant that has no value at a state of a run, or an infinite one.
+std::string words_of_lost_invariant(const std::string& name);
 
 /// What is known of an invariant along motions.
 struct KnownInvariant {

@@ -10,6 +10,8 @@
 #include <random>
 #include <utility>
 
+#include "symbolic/error.hpp"
+
 namespace casimir {
 namespace {
 
@@ -260,6 +262,21 @@ std::vector<PlacedPoint> centred(const LevelSet& level, const std::vector<Placed
   return chosen;
 }
 
+namespace {
+
+/// Whether a point of the plane and the level is found that motions cross, and that has no place in
+/// the picture.
+bool is_crossed_without_place(const LevelSet& level) {
+  Chance chance;
+  for (int i = 0; i < kRandomPointsOfLevel; ++i) {
+    Vector x = anywhere(level, size_of_scene(level), chance, i);
+    if (!level.project(x) || level.speed(x) < kLeastSpeed) continue;
+    const std::array<double, 2> place = level.plotted(x.data());
+    if (!std::isfinite(place[0]) || !std::isfinite(place[1])) return true;
+  }
+  return false;
+}
+
 std::string energies_there(const LevelSet& level) {
   Chance chance;
   double least = std::numeric_limits<double>::infinity(), largest = -least;
@@ -285,6 +302,21 @@ std::string energies_there(const LevelSet& level) {
   return fmt::format(
       "with these values of the Casimir functions the energies found on the plane begin at {:.6g}",
       least);
+}
+
+}  // namespace
+
+std::string why_no_points(const LevelSet& level) {
+  const SectionProblem& problem = level.problem();
+  const char* direction = problem.plane.upwards ? "upwards" : "downwards";
+  if (is_crossed_without_place(level))
+    return fmt::format(
+        "motions with {} cross the plane {}, but where they were found to do so the plotted "
+        "functions {} and {} have no values",
+        problem.level_text(), direction, printable(problem.plotted[0].text, 200),
+        printable(problem.plotted[1].text, 200));
+  return fmt::format("no motion with {} was found that crosses the plane {}; {}",
+                     problem.level_text(), direction, energies_there(level));
 }
 
 }  // namespace casimir

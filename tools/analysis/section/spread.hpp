@@ -40,8 +40,9 @@ std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<Pla
 std::vector<PlacedPoint> centred(const LevelSet& level, const std::vector<PlacedPoint>& points,
                                  std::vector<PlacedPoint> chosen);
 
-/// Energies that occur where the plane meets the Casimir level: a sentence for those who asked for
-/// another one.
-std::string energies_there(const LevelSet& level);
+/// Why no points were found, a sentence: no motion of this level crosses the plane, and which
+/// energies occur where the plane meets the Casimir level; or motions do where the plotted pair has
+/// no values.
+std::string why_no_points(const LevelSet& level);
 
 }  // namespace casimir

@@ -18,7 +18,7 @@ class Run:
 
     method: str
     tolerance: float
-    status: str  #: 'ok', 'drifted', 'not_kept', 'wrong', 'does_not_split', or how the integration ended
+    status: str  #: 'ok', 'drifted', 'no_value', 'not_kept', 'wrong', 'does_not_split', or how the integration ended
     ok: bool  #: it arrived, and nothing is wrong with it
     failed: bool  #: it counts as a failure
     error: float  #: relative, of the end state; NaN where there is no reference state

@@ -35,6 +35,8 @@ std::string end_of(const Row& row) {
       return "does_not_split";
     case RowEnd::drifted:
       return "drifted";
+    case RowEnd::lost:
+      return "no_value";
     case RowEnd::changes:
     case RowEnd::changes_in_step:
       return "not_kept";

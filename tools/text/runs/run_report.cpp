@@ -40,6 +40,8 @@ std::string status_text(const Row& row) {
       return "does not split";
     case RowEnd::drifted:
       return fmt::format("drift above {:g}", row.bound);
+    case RowEnd::lost:
+      return fmt::format("{} has no value at some state, and cannot be watched", row.reason);
     case RowEnd::changes:
       return fmt::format("{} is not kept: its rate is not zero", row.reason);
     case RowEnd::changes_in_step:
