@@ -141,15 +141,20 @@ struct EvenPowers {
   GiNaC::ex even = 1, rest = 1;
 };
 
+/// A sum of a few products with the squares in it apart, in its variables or functions of these, as
+/// of sin(x)^2 + sin(x)^4.
+GiNaC::ex square_free(const GiNaC::ex& factor) {
+  constexpr std::size_t kMostTerms = 30;
+  if (!GiNaC::is_a<GiNaC::add>(factor) || factor.nops() > kMostTerms) return factor;
+  GiNaC::exmap functions;
+  const GiNaC::ex polynomial = factor.to_polynomial(functions);
+  if (!polynomial.info(GiNaC::info_flags::rational_polynomial)) return factor;
+  return GiNaC::sqrfree(polynomial).subs(functions, GiNaC::subs_options::no_pattern);
+}
+
 /// Of a broken power the base with the squares in it apart, multiplied out as it may be: the root
 /// of x^2 + x^4 is |x| sqrt(1 + x^2), which turns at 0 as a root that does not vanish never does.
 EvenPowers even_powers(const GiNaC::ex& base) {
-  constexpr std::size_t kMostTerms = 30;
-  const auto square_free = [](const GiNaC::ex& factor) -> GiNaC::ex {
-    const bool may_hide = GiNaC::is_a<GiNaC::add>(factor) && factor.nops() <= kMostTerms &&
-                          factor.info(GiNaC::info_flags::rational_polynomial);
-    return may_hide ? GiNaC::sqrfree(factor) : factor;
-  };
   GiNaC::ex split = 1;
   if (GiNaC::is_a<GiNaC::mul>(base))
     for (const GiNaC::ex& factor : base) split *= square_free(factor);

@@ -277,6 +277,8 @@ TEST_F(Optimise, SquaresComeOutOfRoots) {
       {x / pow(pow(x, 4) * y, ex(1) / 4), Op::sign, -std::pow(b, -0.25)},
       {y / sqrt(x * x * y + x * x * y * y), Op::abs, b / (-a * std::sqrt(b + b * b))},
       {sqrt(pow(x, 2) - pow(x, 3) * y), Op::abs, -a * std::sqrt(1 - a * b)},
+      {sin(x) / sqrt(pow(sin(x), 2) + pow(sin(x), 4)), Op::sign,
+       -1 / std::sqrt(1 + std::sin(a) * std::sin(a))},
       {sqrt((x * x + pow(x, 4)) * (1 + y * y)), Op::abs,
        -a * std::sqrt((1 + a * a) * (1 + b * b))}};
   for (const Root& root : roots) {
