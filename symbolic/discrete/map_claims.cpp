@@ -77,7 +77,8 @@ Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept,
     if (!have_values_between_steps(map, kept)) return decide_whole(map, claim_of(map), proof);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Proof own = decided_alone(map.steps[i].base, parts[i]);
-      if (own.verdict == Verdict::proved && (i == 0 || own.where.empty())) {
+      // One that is proved on the constraints alone says nothing of where others may lead.
+      if (own.verdict == Verdict::proved && own.on.empty() && (i == 0 || own.where.empty())) {
         proof.where.insert(proof.where.end(), own.where.begin(), own.where.end());
         continue;
       }
@@ -306,9 +307,11 @@ std::vector<Claim> liouville_claims(const MapModel& map) {
         Proof shown;
         hypothesis.decide(prover, shown);
         conditions.insert(conditions.end(), shown.where.begin(), shown.where.end());
-        if (shown.verdict == Verdict::proved && map.sign > 0) continue;
+        if (shown.verdict == Verdict::proved && shown.on.empty() && map.sign > 0) continue;
         proof.reason = hypothesis.kind == ClaimKind::map
-                           ? "the map is not shown to be Poisson"
+                           ? shown.on.empty()
+                                 ? "the map is not shown to be Poisson"
+                                 : "the map is shown to be Poisson on the constraints alone"
                            : fmt::format("{} is not shown to be an integral", hypothesis.name);
         return;
       }

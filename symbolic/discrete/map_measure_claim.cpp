@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "symbolic/discrete/map_claim_parts.hpp"
 #include "symbolic/discrete/map_inverse.hpp"
@@ -13,29 +14,6 @@
 
 namespace casimir::discrete {
 namespace {
-
-/// Whether rho(x') det is rho(x) at some points and -rho(x) at others, as of a map that reflects
-/// one half of the plane; then the claim, which was decided for one sign, is proved. At a point
-/// where the one is refuted the other may hold: where signs of functions may change, nothing is
-/// refuted that is not for their product.
-bool has_another_sign_on_pieces(Prover& prover, Proof& proof, const Polynomial& image,
-                                const Polynomial& own) {
-  if (proof.verdict != Verdict::refuted || prover.ring().is_polynomial()) return false;
-  Proof both;
-  both.kind = proof.kind;
-  both.name = proof.name;
-  const Polynomial product = (image - own) * (image + own);
-  prover.decide(
-      both,
-      {{"the square of the density at the next point times the Jacobian determinant, less "
-        "that of itself",
-        product, [&prover, product] { return prover.ring().expression(product); }}},
-      {});
-  if (both.verdict == Verdict::refuted && !prover.ring().rests_on_what_was_converted())
-    return false;
-  proof = std::move(both);
-  return proof.verdict == Verdict::proved;
-}
 
 /// det A of c(x') = A c, as a quotient.
 struct ChangeAcross {
@@ -72,18 +50,40 @@ std::optional<ChangeAcross> change_across(Prover& prover, const MapModel& map) {
   return result;
 }
 
-/// Whether dx/dc has a meaning: somewhere on the constraints their gradients are independent.
+/// Hypotheses of a measure density*dx/dc: at a point of each part of the constraints their
+/// gradients are independent, so that dx/dc has a meaning, and det A is not zero. Where it is, so
+/// is the Jacobian determinant, which says nothing then of what the map does on them: (2 x, z^2)
+/// doubles the lengths on z = 0.
 /// \param where  becomes the parts of them of which that is known
-bool are_independent(Prover& prover, std::vector<std::string>& where) {
+bool have_a_measure(Prover& prover, const ChangeAcross& across, std::vector<std::string>& where) {
+  if (prover.model().constraints.empty()) return true;
   PolynomialRows slopes;
   for (const NamedExpression& c : prover.model().constraints)
     slopes.push_back(prover.gradient(prover.convert(c.value)));
   const std::size_t count = slopes.size();
   Proof proof;
   proof.verdict = Verdict::proved;
-  require_on_constraints(prover, proof, {{std::move(slopes), count}});
+  require_on_constraints(prover, proof, {{std::move(slopes), count}, {{{across.top}}, 1}});
   where = std::move(proof.where);
   return proof.verdict == Verdict::proved;
+}
+
+/// The determinant of the scalar products of the gradients of the constraints, 1 without any: zero
+/// where they are dependent.
+Polynomial gram_determinant(Prover& prover) {
+  const FunctionRing& ring = prover.ring();
+  std::vector<std::vector<Polynomial>> slopes, products;
+  for (const NamedExpression& c : prover.model().constraints)
+    slopes.push_back(prover.gradient(prover.convert(c.value)));
+  for (const auto& a : slopes) {
+    auto& row = products.emplace_back();
+    for (const auto& b : slopes) {
+      Polynomial sum = ring.ring().constant(0);
+      for (std::size_t i = 0; i < a.size(); ++i) sum += ring.checked_product(a[i], b[i]);
+      row.push_back(std::move(sum));
+    }
+  }
+  return products.empty() ? ring.ring().constant(1) : determinant(ring.ring(), products);
 }
 
 /// A map that is not one to one may keep a measure that it does not keep near each point.
@@ -97,6 +97,88 @@ void excuse(Proof& proof, const std::string& density) {
   proof.witness.reset();
 }
 
+/// What the map does to the orientation that a density gives.
+enum class Orientation { kept, reversed, differs };
+
+/// Decides whether image = own, or image = -own, at each point where the gradients of the
+/// constraints are independent.
+///
+/// At a point where the one fails the other may hold, as of a map that reflects one half of the
+/// plane: where functions change their signs, or constraints have several parts, nothing is refuted
+/// but by their product.
+class MeasureEquation {
+ public:
+  MeasureEquation(Prover& prover, const MapModel& map, const NamedExpression& density,
+                  const ChangeAcross& across)
+      : prover_(prover),
+        map_(map),
+        density_(density),
+        across_(across),
+        level_(prover.level(map.base.constraints)),
+        image_(prover.convert(map.composed(density.value)) *
+               determinant(prover.ring().ring(), jacobian(prover, map)) * across.bottom),
+        own_(prover.convert(density.value) * across.top) {}
+
+  Orientation decide(Proof& proof) const {
+    const Proof blank = proof;
+    const bool reversed = !prover_.is_zero(image_ - own_) && prover_.is_zero(image_ + own_);
+    prover_.decide(proof, {residual(reversed ? -1 : 1)}, level_);
+    if (proof.verdict == Verdict::proved)
+      return reversed ? Orientation::reversed : Orientation::kept;
+    if (level_.empty())
+      return prover_.ring().is_polynomial() ? Orientation::kept : decide_product(proof, blank);
+    Proof opposite = blank;
+    prover_.decide(opposite, {residual(-1)}, level_);
+    if (opposite.verdict != Verdict::proved) return decide_product(proof, blank);
+    proof = std::move(opposite);
+    return Orientation::reversed;
+  }
+
+ private:
+  Orientation decide_product(Proof& proof, const Proof& blank) const {
+    if (proof.verdict != Verdict::refuted) return Orientation::kept;
+    const FunctionRing& ring = prover_.ring();
+    const Polynomial gram = gram_determinant(prover_);
+    const Polynomial product = (image_ - own_) * (image_ + own_) * gram;
+    Proof either = blank;
+    prover_.decide(
+        either,
+        {{fmt::format("the square of ({}) at the next point times the Jacobian "
+                      "determinant, less that of itself{}",
+                      density_.name, times()),
+          product,
+          [this, gram] { return (by_ginac(1) * by_ginac(-1)) * prover_.ring().expression(gram); }}},
+        level_);
+    // A point at which the product is not zero says the same as one of the difference.
+    if (level_.empty() && either.verdict == Verdict::refuted && !ring.rests_on_what_was_converted())
+      return Orientation::kept;
+    proof = std::move(either);
+    return Orientation::differs;
+  }
+
+  Residual residual(int sign) const {
+    return {fmt::format("({}) at the next point times the Jacobian determinant, {} itself{}",
+                        density_.name, sign > 0 ? "less" : "plus", times()),
+            sign > 0 ? image_ - own_ : image_ + own_, [this, sign] { return by_ginac(sign); }};
+  }
+
+  std::string times() const { return across_.is_one ? "" : " times that of the constraints"; }
+
+  GiNaC::ex by_ginac(int sign) const {
+    const FunctionRing& ring = prover_.ring();
+    return map_.composed(density_.value) * jacobian_determinant(map_) *
+               ring.expression(across_.bottom) -
+           sign * density_.value * ring.expression(across_.top);
+  }
+
+  Prover& prover_;
+  const MapModel& map_;
+  const NamedExpression& density_;
+  const ChangeAcross& across_;
+  const Level& level_;
+  Polynomial image_, own_;
+};
+
 /// By the change of variables x' = phi(x) the measure |rho| dx is kept, near every point at which
 /// the Jacobian determinant is not zero, exactly where rho(x') det(dx'/dx) is rho(x) or -rho(x).
 /// On the zero level of constraints, with c(x') = A c, the measure |rho| dx/dc is exactly where
@@ -109,54 +191,27 @@ void decide_measure(Prover& prover, Proof& proof, const MapModel& map,
     return;
   }
   std::vector<std::string> where;
-  if (!are_independent(prover, where)) {
+  if (!have_a_measure(prover, *across, where)) {
     proof.reason =
-        "no exact point was found at which the gradients of the constraints are independent, "
-        "without which there is no measure density*dx/dc";
+        "no exact point was found at which the gradients of the constraints are independent, and "
+        "the map takes none of their directions to zero, without which nothing is said of "
+        "density*dx/dc";
     return;
   }
-  const Polynomial image = prover.convert(map.composed(density.value)) *
-                           determinant(prover.ring().ring(), jacobian(prover, map)) *
-                           across->bottom;
-  const Polynomial own = prover.convert(density.value) * across->top;
-  const auto residual = [&](int sign) -> Residual {
-    const std::string label = fmt::format(
-        "({}) at the next point times the Jacobian determinant, {} itself{}", density.name,
-        sign > 0 ? "less" : "plus", across->is_one ? "" : " times that of the constraints");
-    const Polynomial value = sign > 0 ? image - own : image + own;
-    if (!across->is_one)
-      return {label, value, [&prover, value] { return prover.ring().expression(value); }};
-    return {label, value, [&map, density, sign] {
-              return map.composed(density.value) * jacobian_determinant(map) - sign * density.value;
-            }};
-  };
-  const Level& level = prover.level(map.base.constraints);
-  bool reverses = !prover.is_zero(image - own) && prover.is_zero(image + own);
-  prover.decide(proof, {residual(reverses ? -1 : 1)}, level);
-  if (proof.verdict != Verdict::proved && !level.empty()) {
-    Proof opposite;
-    opposite.kind = proof.kind;
-    opposite.name = proof.name;
-    prover.decide(opposite, {residual(-1)}, level);
-    reverses = opposite.verdict == Verdict::proved;
-    if (reverses) proof = std::move(opposite);
-  }
-  const bool bends = has_another_sign_on_pieces(prover, proof, image, own);
+  const Orientation orientation = MeasureEquation(prover, map, density, *across).decide(proof);
   constexpr double kFewTerms = 1000;
   const bool one_to_one = is_one_to_one(map, kFewTerms);
   if (proof.verdict == Verdict::refuted && !one_to_one) excuse(proof, density.name);
   judge_density(prover, proof, density.value);
   if (proof.verdict != Verdict::proved) return;
   add_conditions(proof, where);
-  const auto add = [&](const char* text) {
-    proof.evidence += std::string(proof.evidence.empty() ? "" : "; ") + text;
-  };
-  if (reverses || bends)
-    add(bends ? "the map reverses the orientation that the density gives at some points"
-              : "the map reverses the orientation that the density gives");
+  if (orientation != Orientation::kept)
+    proof.evidence += fmt::format("{}the map reverses the orientation that the density gives{}",
+                                  proof.evidence.empty() ? "" : "; ",
+                                  orientation == Orientation::differs ? " at some points" : "");
   // Of a map that is not one to one the preimage of a set may have several parts, and their
   // measure is that of the set only one by one: (x^2, y/(2*x)) doubles areas.
-  if (!one_to_one) proof.where.push_back("on sets on which the map is one to one");
+  if (!one_to_one) proof.where.emplace_back("on sets on which the map is one to one");
 }
 
 }  // namespace

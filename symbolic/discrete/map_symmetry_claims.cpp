@@ -90,7 +90,7 @@ void judge_symmetry_on_constraints(Prover& prover, Proof& proof, const MapModel&
     judge_invertible(prover, proof, symmetry.name, symmetry.parameters, map.base.parameters);
   if (proof.verdict != Verdict::proved) return;
   require_local_inverse_on_constraints(
-      prover, proof, derivatives_of(prover, symmetry.variables, map.base.variables),
+      prover, proof, {derivatives_of(prover, symmetry.variables, map.base.variables)},
       slopes_at(prover, image_of(map, symmetry)));
   if (proof.verdict != Verdict::proved)
     proof.reason =
@@ -239,9 +239,10 @@ void judge_conjugacy_on_constraints(Prover& prover, Proof& proof, const MapModel
   GiNaC::exmap next;
   for (std::size_t i = 0; i < map.next.size(); ++i) next[map.base.variables[i]] = map.next[i];
   require_local_inverse_on_constraints(
-      prover, proof, derivatives_of(prover, conjugacy.expressions, map.base.variables), {});
-  require_local_inverse_on_constraints(
-      prover, proof, derivatives_of(prover, after, map.base.variables), slopes_at(prover, next));
+      prover, proof,
+      {derivatives_of(prover, conjugacy.expressions, map.base.variables),
+       derivatives_of(prover, after, map.base.variables)},
+      slopes_at(prover, next));
   if (proof.verdict == Verdict::proved)
     proof.evidence = kLocally;
   else

@@ -138,10 +138,18 @@ Row conserve_map(const MapModel& map, const Scene& scene, const std::optional<do
   // Written so that a drift that is not a number fails too.
   row.failed = row.status != Status::ok || !(row.drift <= bound);
   if (row.status == Status::ok && row.failed) {
-    const auto lost = std::ranges::find_if(
-        run.invariants, [](const auto& invariant) { return !std::isfinite(invariant.drift); });
-    row.end = lost == run.invariants.end() ? RowEnd::drifted : RowEnd::lost;
-    if (row.end == RowEnd::lost) row.reason = lost->name;
+    double drifted = 0;
+    for (const Iterated::Invariant& invariant : run.invariants) {
+      if (std::isfinite(invariant.drift))
+        drifted = std::max(drifted, invariant.drift);
+      else
+        row.reason = invariant.name;
+    }
+    row.end = drifted > bound ? RowEnd::drifted : RowEnd::lost;
+    if (row.end == RowEnd::drifted) {
+      row.drift = drifted;
+      row.reason.clear();
+    }
     row.bound = bound;
   } else if (!row.failed) {
     if (auto name = changing_invariant(map, scene)) {

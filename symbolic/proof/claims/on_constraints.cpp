@@ -123,15 +123,16 @@ void require_independence_on_constraints(Prover& prover, Proof& proof,
 }
 
 void require_local_inverse_on_constraints(
-    Prover& prover, Proof& proof, const PolynomialRows& derivatives,
+    Prover& prover, Proof& proof, const std::vector<PolynomialRows>& derivatives,
     const std::function<PolynomialRows(const PolynomialRows&)>& slopes_at) {
   if (!may_be_asked(prover, proof)) return;
   const ConstraintSet constraints(prover);
-  PolynomialRows together = constraints.slopes();
-  together.insert(together.end(), derivatives.begin(), derivatives.end());
-  std::vector<RankedRows> all{{std::move(together), prover.dimension()}};
-  all.push_back({slopes_at ? slopes_at(constraints.slopes()) : constraints.slopes(), 0,
-                 constraints.slopes()});
+  std::vector<RankedRows> all{{slopes_at(constraints.slopes()), 0, constraints.slopes()}};
+  for (const PolynomialRows& rows : derivatives) {
+    PolynomialRows together = constraints.slopes();
+    together.insert(together.end(), rows.begin(), rows.end());
+    all.push_back({std::move(together), prover.dimension()});
+  }
   require(prover, proof, constraints, all);
 }
 

@@ -32,11 +32,10 @@ void require_independence_on_constraints(Prover& prover, Proof& proof,
 /// common (theorem on inverse functions). If it leads into the constraints themselves, it covers a
 /// neighbourhood of f(x) there, too, where dc has as large a rank there as at x.
 ///
-/// \param derivatives  df by the variables
-/// \param slopes_at  the gradients of the constraints at the values of f, by those at x; empty where
-///                   f leads elsewhere
+/// \param derivatives  df by the variables, of each of some functions, all at one point
+/// \param slopes_at  the gradients of the constraints at the values of the last one, by those at x
 void require_local_inverse_on_constraints(
-    Prover& prover, Proof& proof, const PolynomialRows& derivatives,
+    Prover& prover, Proof& proof, const std::vector<PolynomialRows>& derivatives,
     const std::function<PolynomialRows(const PolynomialRows&)>& slopes_at);
 
 /// Decides a claim on the common zero level of functions.

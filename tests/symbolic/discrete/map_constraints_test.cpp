@@ -200,5 +200,110 @@ TEST(MapsOnConstraints, ArePoissonOnLevelsOfCasimirFunctions) {
             Verdict::undecided);
 }
 
+/// Where a map goes back to its constraints from all sides, det A and the Jacobian determinant are
+/// zero together, and say nothing of what it does on them.
+TEST(MapsOnConstraints, KeepNoMeasureByFlatteningWhatIsBesideThem) {
+  EXPECT_EQ(verdict_of(on_line("x = \"2*x\"\nz = \"z^2\"\n", density("1")), ClaimKind::measure),
+            Verdict::undecided);
+  EXPECT_EQ(verdict_of(map_of(R"toml(
+[phase_space]
+variables = ["x", "y", "z"]
+constraints = ["x^2 + y^2 + z^2 - 1"]
+[map]
+x = "2*x/sqrt(4*x^2 + y^2 + z^2)"
+y = "y/sqrt(4*x^2 + y^2 + z^2)"
+z = "z/sqrt(4*x^2 + y^2 + z^2)"
+[[measure]]
+density = "1"
+)toml"),
+                       ClaimKind::measure),
+            Verdict::undecided);
+  // So it is on one of two lines.
+  const Proof one =
+      proof_of(on_line("x = \"x*(2 - z)\"\nz = \"z^2\"\n", density("1"), R"("z^2 - z")"),
+               ClaimKind::measure);
+  ASSERT_EQ(one.verdict, Verdict::proved) << one.reason;
+  ASSERT_FALSE(one.where.empty());
+  EXPECT_NE(one.where[0].find("z = 1"), std::string::npos) << one.where[0];
+}
+
+/// The sign differs from line to line, and a point at which the constraints are dependent refutes
+/// nothing.
+TEST(MapsOnConstraints, KeepMeasuresOfTheirParts) {
+  EXPECT_EQ(verdict_of(on_line("x = \"-x*z\"\nz = \"-z\"\n", density("1"), R"("z^2 - 1")"),
+                       ClaimKind::measure),
+            Verdict::proved);
+  EXPECT_EQ(verdict_of(on_line("x = \"x/z\"\nz = \"z\"\n", density("1"), R"("z^2 - 1")"),
+                       ClaimKind::measure),
+            Verdict::proved);
+  EXPECT_EQ(verdict_of(on_line("x = \"2*x*z\"\nz = \"z\"\n", density("1"), R"("z^2 - 1")"),
+                       ClaimKind::measure),
+            Verdict::refuted);
+  EXPECT_NE(verdict_of(map_of(R"toml(
+[phase_space]
+variables = ["x", "y", "z"]
+constraints = ["x*z", "y*z"]
+[map]
+x = "3*x"
+y = "5*y"
+z = "z"
+[[measure]]
+density = "1 + x"
+)toml"),
+                       ClaimKind::measure),
+            Verdict::refuted);
+}
+
+/// A step that is Poisson everywhere may leave the constraints that another one is Poisson on.
+TEST(MapsOnConstraints, AreNotPoissonByStepsThatLeaveThem) {
+  const std::string space = R"toml(
+integrable = true
+[phase_space]
+variables = ["q", "p", "c"]
+constraints = ["c"]
+[phase_space.brackets]
+"q,p" = "1"
+[casimirs]
+C = "c"
+[integrals]
+F = "p"
+)toml";
+  const MapModel leaving = map_of(space + R"toml(
+[[map_step]]
+expressions = { c = "c + 1" }
+[[map_step]]
+expressions = { q = "q*(1 + c)" }
+[[map_step]]
+expressions = { c = "c - 1" }
+)toml");
+  EXPECT_EQ(verdict_of(leaving, ClaimKind::map), Verdict::refuted);
+  EXPECT_NE(verdict_of(leaving, ClaimKind::liouville), Verdict::proved);
+  const MapModel staying = map_of(space + "[map]\nq = \"q*(1 + c) + p\"\np = \"p\"\nc = \"c\"\n");
+  const Proof poisson = proof_of(staying, ClaimKind::map);
+  EXPECT_EQ(poisson.verdict, Verdict::proved);
+  EXPECT_EQ(poisson.on, std::vector<std::string>{"c"});
+  EXPECT_NE(verdict_of(staying, ClaimKind::liouville), Verdict::proved);
+}
+
+/// x is invertible on y = 0, and the map leads there from the other line.
+TEST(MapsOnConstraints, AreConjugateOnOnePart) {
+  const Proof proof = proof_of(map_of(R"toml(
+[phase_space]
+variables = ["x", "y"]
+constraints = ["x*y"]
+[map]
+x = "2*x"
+y = "0"
+[[conjugacy]]
+name = "c"
+expressions = { X = "x", Y = "y" }
+map = { X = "2*X", Y = "0" }
+)toml"),
+                               ClaimKind::conjugacy);
+  ASSERT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+  ASSERT_EQ(proof.where.size(), 1U);
+  EXPECT_NE(proof.where[0].find("y = 0"), std::string::npos) << proof.where[0];
+}
+
 }  // namespace
 }  // namespace casimir::test

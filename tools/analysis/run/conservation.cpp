@@ -25,9 +25,11 @@ bool may_be_refused(const Scene& scene) {
 }
 
 /// Which invariant drifted most, for the table.
-double largest_drift(const Trajectory& trajectory) {
+/// \param among_numbers  not of those that have no value at some state, whose drift is infinite
+double largest_drift(const Trajectory& trajectory, bool among_numbers = false) {
   double drift = 0;
-  for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
+  for (const InvariantRecord& record : trajectory.invariants)
+    if (!among_numbers || std::isfinite(record.drift)) drift = std::max(drift, record.drift);
   return drift;
 }
 
@@ -69,8 +71,11 @@ void judge_conservation(Row& row, const Trajectory& trajectory, const Scene& sce
   if (trajectory.status == Status::ok && row.failed) {
     const auto lost = std::ranges::find_if(
         trajectory.invariants, [](const auto& record) { return !std::isfinite(record.drift); });
-    row.end = lost == trajectory.invariants.end() ? RowEnd::drifted : RowEnd::lost;
-    if (row.end == RowEnd::lost)
+    const double drifted = largest_drift(trajectory, true);
+    row.end = drifted > bound ? RowEnd::drifted : RowEnd::lost;
+    if (row.end == RowEnd::drifted)
+      row.drift = drifted;
+    else
       row.reason = names.at(static_cast<std::size_t>(lost - trajectory.invariants.begin()));
     row.bound = bound;
   }
