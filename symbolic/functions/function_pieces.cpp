@@ -1,6 +1,7 @@
 #include "symbolic/functions/function_pieces.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -68,60 +69,184 @@ bool FunctionPieces::vanishes_with(const Polynomial& p, const Polynomial& f) con
   return rest.is_zero() || rest.divide(f, &quotient);
 }
 
-std::vector<Polynomial> FunctionPieces::zeros_with_roots(const std::vector<Polynomial>& list,
-                                                         std::size_t least) const {
-  std::vector<Polynomial> result;
+namespace {
+
+/// Divides by f as often as that goes. \return how often
+unsigned long take_out(Polynomial& p, const Polynomial& f) {
+  unsigned long times = 0;
+  Polynomial quotient(p.ring());
+  for (; !p.is_zero() && !f.is_constant() && p.divide(f, &quotient); ++times) p = quotient;
+  return times;
+}
+
+}  // namespace
+
+/// Nothing where several roots vanish with f, or several terms are of the lowest order.
+std::optional<FunctionPieces::Leading> FunctionPieces::leading_at(const Polynomial& p,
+                                                                  const Polynomial& f) const {
+  std::optional<std::size_t> place;
+  double weight = 0;
+  Polynomial beside = table_.ring().constant(1);  // under that root
+  for (const std::size_t g : table_.generators_in({p})) {
+    const Generator& own = table_.generators()[g];
+    if (own.kind != Kind::root && own.kind != Kind::absolute) continue;
+    Polynomial radicand = table_.fraction(own.base).first;
+    const unsigned long times = take_out(radicand, f);
+    if (times == 0) continue;
+    if (place) return std::nullopt;
+    place = table_.place(g);
+    weight =
+        static_cast<double>(times) / (own.kind == Kind::root ? static_cast<double>(own.order) : 2);
+    beside = radicand;
+  }
+  std::optional<Leading> result;
+  bool several = false;
+  const std::vector<Polynomial> parts = place ? p.coefficients(*place) : std::vector<Polynomial>{p};
+  for (std::size_t power = 0; power < parts.size(); ++power) {
+    Polynomial part = parts[power];
+    if (part.is_zero()) continue;
+    const double order =
+        static_cast<double>(take_out(part, f)) + weight * static_cast<double>(power);
+    if (result && order > result->order) continue;
+    several = result && order == result->order;
+    result = Leading{order, power > 0 ? table_.checked_product(part, beside) : part};
+  }
+  return several ? std::nullopt : result;
+}
+
+std::optional<Polynomial> FunctionPieces::pole_coefficient(const Polynomial& p,
+                                                           const Polynomial& f) const {
+  const auto [top, bottom] = table_.lowest_terms(p);
+  const auto of_top = leading_at(top, f), of_bottom = leading_at(bottom, f);
+  if (!of_top || !of_bottom || of_top->order >= of_bottom->order) return std::nullopt;
+  Polynomial coefficient = table_.ring().constant(1), divisor = of_bottom->coefficient;
+  for (const auto& [factor, exponent] : of_top->coefficient.factors())
+    if (factor.is_constant() || take_out(divisor, factor) < exponent) coefficient *= factor;
+  return coefficient;
+}
+
+/// In the variables that `f` uses; nothing where other functions than roots have these.
+std::optional<double> FunctionPieces::lowest_degree(const Polynomial& p,
+                                                    const Polynomial& f) const {
+  std::vector<double> weights(table_.ring().size(), 0);
+  for (std::size_t i = 0; i < table_.symbols().size(); ++i) weights[i] = f.uses(i) ? 1 : 0;
+  const auto lowest = [&](const Polynomial& q) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [coefficient, exponents] : q.term_list()) {
+      double degree = 0;
+      for (std::size_t i = 0; i < exponents.size(); ++i)
+        degree += weights[i] * static_cast<double>(exponents[i]);
+      least = std::min(least, degree);
+    }
+    return least;
+  };
+  for (const std::size_t g : table_.generators_in({p})) {
+    const Generator& own = table_.generators()[g];
+    if (own.kind == Kind::root || own.kind == Kind::absolute) {
+      const double order = own.kind == Kind::root ? static_cast<double>(own.order) : 2;
+      const auto [top, bottom] = table_.fraction(own.base);
+      weights[table_.place(g)] = (lowest(top) - lowest(bottom)) / order;
+      continue;
+    }
+    for (std::size_t i = 0; i < table_.symbols().size(); ++i)
+      if (f.uses(i) && table_.depends_on(table_.ring().variable(table_.place(g)), i))
+        return std::nullopt;
+  }
+  return lowest(p);
+}
+
+bool FunctionPieces::grows_towards_zero(const Polynomial& p, const Polynomial& f) const {
+  double highest = 0;
+  for (const auto& [coefficient, exponents] : f.term_list()) {
+    double degree = 0;
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] > 0 && i >= table_.symbols().size()) return false;
+      degree += static_cast<double>(exponents[i]);
+    }
+    highest = std::max(highest, degree);
+  }
+  const auto [top, bottom] = table_.lowest_terms(p);
+  const auto of_top = lowest_degree(top, f), of_bottom = lowest_degree(bottom, f);
+  return of_top && of_bottom && lowest_degree(f, f) == highest && *of_top < *of_bottom;
+}
+
+/// Two of them have to be zero: those that are shown to be, or others that may be.
+std::vector<JumpPlace> FunctionPieces::common_zeros(const std::vector<Polynomial>& list) const {
+  std::vector<JumpPlace> result;
+  if (list.size() < 2) return result;
   for (const Polynomial& rough : list)
     for (const Polynomial& f : radicand_factors(rough)) {
-      const auto count =
-          std::ranges::count_if(list, [&](const Polynomial& own) { return vanishes_with(own, f); });
-      if (static_cast<std::size_t>(count) >= least) result.push_back(f);
+      const auto vanishes = [&](const Polynomial& own) { return vanishes_with(own, f); };
+      if (std::ranges::count_if(list, vanishes) >= 2) {
+        result.push_back({f, std::nullopt});
+        continue;
+      }
+      for (const Polynomial& own : list)
+        if (!vanishes(own)) result.push_back({f, own});
     }
   return result;
 }
 
-std::vector<Polynomial> FunctionPieces::jump_factors(const Polynomial& p, bool cuts) const {
-  std::vector<Polynomial> result;
+/// Irreducible functions one of which is zero where the irreducible `f` is: of a root, those under
+/// it.
+std::vector<Polynomial> FunctionPieces::zeros_of(const Polynomial& f) const {
+  for (const std::size_t g : table_.generators_in({f})) {
+    const Kind kind = table_.generators()[g].kind;
+    const bool root = kind == Kind::root || kind == Kind::absolute;
+    const Polynomial own = table_.ring().variable(table_.place(g));
+    if (root && (f == own || f == -own)) return factors_of_radicand(g);
+  }
+  return {f};
+}
+
+std::vector<JumpPlace> FunctionPieces::jump_factors(const Polynomial& p, bool cuts) const {
+  std::vector<JumpPlace> result;
   const std::vector<Polynomial> rough = radicand_factors(p);
-  const auto add = [&](const Polynomial& f) {
-    if (!f.is_constant() && std::find(result.begin(), result.end(), f) == result.end())
-      result.push_back(f);
+  const auto add = [&](const Polynomial& zero, const std::optional<Polynomial>& with) {
+    if (zero.is_constant()) return;
+    if (std::none_of(result.begin(), result.end(), [&](const JumpPlace& known) {
+          return known.zero == zero && (!known.with || known.with == with);
+        }))
+      result.push_back({zero, with});
   };
   // What is divided by, itself or under a root that is.
   const auto divided_by = [&](const Polynomial& bottom, bool inverse) {
     for (const auto& [f, exponent] : bottom.factors()) {
       if (signs_.is_assumed_nonzero(f)) continue;  // as in 1/exp(|x|)
-      std::vector<Polynomial> parts = radicand_factors(f);
-      parts.push_back(f);
-      for (const Polynomial& part : parts)
-        if (inverse || std::find(rough.begin(), rough.end(), part) != rough.end()) add(part);
+      for (const Polynomial& zero : zeros_of(f)) {
+        if (inverse || std::find(rough.begin(), rough.end(), zero) != rough.end())
+          add(zero, std::nullopt);
+        else
+          for (const Polynomial& own : rough) add(zero, own);
+      }
     }
   };
   divided_by(table_.lowest_terms(p).second, false);
   for (const std::size_t g : table_.generators_in({p})) {
     const Generator& generator = table_.generators()[g];
     const bool function = generator.kind == Kind::function;
+    const bool angle = function && generator.order == kArcTangentOfTwo;
     if (generator.kind != Kind::inverse && !generator.base.is_zero())
       divided_by(table_.fraction(generator.base).second,
                  function && generator.order == kArcTangent);  // atan(1/x)
     for (const Polynomial& argument : generator.arguments)
-      divided_by(table_.fraction(argument).second, cuts && function);
-    if (!cuts || !function || generator.order != kArcTangentOfTwo) continue;
+      divided_by(table_.fraction(argument).second, angle || (cuts && function));
+    if (!cuts || !angle) continue;
     const Polynomial& y = generator.arguments[0];
     const Polynomial& x = generator.arguments[1];
     if (signs_.known_sign(x) > 0 && signs_.known_nonzero(x)) continue;
     const Polynomial cut =
         table_.numerator(y).is_zero() ? table_.numerator(x) : table_.numerator(y);
-    for (const auto& [f, exponent] : cut.factors()) add(f);
+    for (const auto& [f, exponent] : cut.factors()) add(f, std::nullopt);
   }
   return result;
 }
 
-std::vector<Polynomial> FunctionPieces::split_jump_factors(const Polynomial& p) const {
-  std::vector<Polynomial> result, logarithms;
+std::vector<JumpPlace> FunctionPieces::split_jump_factors(const Polynomial& p) const {
+  std::vector<JumpPlace> result;
+  std::vector<Polynomial> logarithms;
   const auto add = [&](const std::vector<Polynomial>& list) {
-    for (const Polynomial& f : zeros_with_roots(list, 2))
-      if (std::find(result.begin(), result.end(), f) == result.end()) result.push_back(f);
+    for (JumpPlace& place : common_zeros(list)) result.push_back(std::move(place));
   };
   for (const std::size_t g : table_.generators_in({p})) {
     const Generator& generator = table_.generators()[g];

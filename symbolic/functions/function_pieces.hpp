@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -7,6 +8,12 @@
 #include "symbolic/functions/sign_table.hpp"
 
 namespace casimir::functions {
+
+/// A place where a function may jump.
+struct JumpPlace {
+  Polynomial zero;                 ///< vanishes there
+  std::optional<Polynomial> with;  ///< and so does this one, under a root or an absolute value
+};
 
 /// Knows the places where functions are not differentiable, or not analytic.
 class FunctionPieces {
@@ -19,21 +26,32 @@ class FunctionPieces {
   /// \param cuts  with what has to vanish for atan2 to jump, which does not concern derivatives
   std::vector<Polynomial> radicand_factors(const Polynomial& p, bool cuts = false) const;
 
-  /// Functions such that `p`, where it has values, is continuous wherever none of them vanishes:
-  /// what it divides by inside of roots, absolute values and inverse functions, or beside them with
-  /// the same factor, as |s|/s does, and what vanishes on the cuts of atan2. Of a quotient of
-  /// analytic functions there are none: what is constant along a motion has no pole there.
-  /// \param cuts  with those of atan2, and of arguments of other functions than atan that become
-  ///              infinite
-  std::vector<Polynomial> jump_factors(const Polynomial& p, bool cuts = true) const;
+  /// Places such that `p`, where it has values, is continuous at all others: where it divides by
+  /// zero, inside of roots, absolute values and inverse functions or beside them, and what stands
+  /// under one of its roots is zero, too, as of |s|/s; and the cuts of atan2. Of a quotient of
+  /// functions that are analytic there are none: what is constant along a motion has no pole there.
+  /// Whether the two zeros of a place have a point in common is not looked at: in x + 1 - 2*r and
+  /// r - 1, with r = sqrt(x), that is not written.
+  /// \param cuts  with those of atan2, and of arguments of other functions than atan and atan2 that
+  ///              become infinite
+  std::vector<JumpPlace> jump_factors(const Polynomial& p, bool cuts = true) const;
 
   /// Of quotients N/D within other functions: log(N/D) has become log(N) - log(D), of which both
   /// are infinite where N/D jumps, and atan2(N/D, 3) is atan2(N, 3*D), the angle of the origin
   /// there. That these have no value where the factor vanishes does not keep the motion from it.
-  std::vector<Polynomial> split_jump_factors(const Polynomial& p) const;
+  std::vector<JumpPlace> split_jump_factors(const Polynomial& p) const;
 
   /// Whether `p` is zero wherever the irreducible `f` is, and with it the roots of its multiples.
   bool vanishes_with(const Polynomial& p, const Polynomial& f) const;
+
+  /// Of a function that is like c*f^(-s), s > 0, where the irreducible `f` vanishes and the others
+  /// in it do not: a function that is zero where c is. Nothing where this is not seen.
+  std::optional<Polynomial> pole_coefficient(const Polynomial& p, const Polynomial& f) const;
+
+  /// Whether `p` is seen to grow without bound towards the origin of the variables of `f`, a form
+  /// in them, as 1/(x^2 + y^2) does and x/sqrt(x^2 + y^2) does not: by the lowest degrees of
+  /// numerator and denominator, of roots too, along a line that both do not vanish on.
+  bool grows_towards_zero(const Polynomial& p, const Polynomial& f) const;
 
   /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that
   /// vanishes, as y*|y| and x^(3/2) are.
@@ -55,10 +73,17 @@ class FunctionPieces {
   Pieces pieces(const std::vector<Polynomial>& functions) const;
 
  private:
-  /// Factors under roots in the list whose zeros are those of so many of its members at least.
-  std::vector<Polynomial> zeros_with_roots(const std::vector<Polynomial>& list,
-                                           std::size_t least) const;
+  /// Where factors under roots in the list are zero and two of its members are, or may be.
+  std::vector<JumpPlace> common_zeros(const std::vector<Polynomial>& list) const;
   const std::vector<Polynomial>& factors_of_radicand(std::size_t g) const;
+  std::vector<Polynomial> zeros_of(const Polynomial& f) const;
+  /// p like c*f^order.
+  struct Leading {
+    double order;
+    Polynomial coefficient;
+  };
+  std::optional<Leading> leading_at(const Polynomial& p, const Polynomial& f) const;
+  std::optional<double> lowest_degree(const Polynomial& p, const Polynomial& f) const;
 
   const GeneratorTable& table_;
   const SignTable& signs_;

@@ -135,8 +135,8 @@ class FunctionRing {
   /// Whether the assumptions, or what makes roots and logarithms real, leave no point at which `p`
   /// vanishes: each of its factors has a strict sign, or is assumed not to be zero.
   bool is_nowhere_zero(const Polynomial& p) const { return signs_.is_nowhere_zero(p); }
-  /// The same of an irreducible one, but not since a root or a logarithm has no value else: the
-  /// motion may pass where one function has none.
+  /// The same of an irreducible one, and at the edge of where roots and logarithms have values,
+  /// too: the motion may pass where one function has none.
   bool is_assumed_nonzero(const Polynomial& p) const { return signs_.is_assumed_nonzero(p); }
 
   /// Functions whose common real zeros are those of `p`: where that is a sum of squares, or of what
@@ -154,17 +154,25 @@ class FunctionRing {
     return pieces_.radicand_factors(p, cuts);
   }
 
-  /// Functions of which one vanishes wherever `p`, having values on both sides, jumps.
+  /// Where `p`, having values on both sides, may jump.
   /// \param cuts  as of `FunctionPieces`
-  std::vector<Polynomial> jump_factors(const Polynomial& p, bool cuts = true) const {
+  std::vector<functions::JumpPlace> jump_factors(const Polynomial& p, bool cuts = true) const {
     return pieces_.jump_factors(p, cuts);
   }
   /// See `FunctionPieces`.
-  std::vector<Polynomial> split_jump_factors(const Polynomial& p) const {
+  std::vector<functions::JumpPlace> split_jump_factors(const Polynomial& p) const {
     return pieces_.split_jump_factors(p);
   }
   bool vanishes_with(const Polynomial& p, const Polynomial& f) const {
     return pieces_.vanishes_with(p, f);
+  }
+
+  /// See `FunctionPieces`.
+  std::optional<Polynomial> pole_coefficient(const Polynomial& p, const Polynomial& f) const {
+    return pieces_.pole_coefficient(p, f);
+  }
+  bool grows_towards_zero(const Polynomial& p, const Polynomial& f) const {
+    return pieces_.grows_towards_zero(p, f);
   }
 
   /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that

@@ -141,16 +141,18 @@ bool SignTable::is_listed_nonzero(const Polynomial& p) const {
                      [&](const Sign& s) { return s.strict && listed(s); });
 }
 
-bool SignTable::is_assumed_nonzero(const Polynomial& p) const {
-  const auto listed = [&](const auto& entry) {
-    return !entry.implied && (entry.of == p || entry.of == -p);
-  };
-  if (p.is_constant()) return !p.is_zero();
-  return std::any_of(nonzero_.begin(), nonzero_.end(), listed) ||
-         std::any_of(signs_.begin(), signs_.end(),
-                     [&](const Sign& s) { return s.strict && listed(s); }) ||
-         is_nonzero_by_form(p);
+/// What is known at the edge: 1/sqrt(p) implies p > 0, and p may be zero where it has no value.
+const SignTable& SignTable::at_edge() const {
+  if (!at_edge_) {
+    auto edge = std::make_shared<SignTable>(*this);
+    std::erase_if(edge->nonzero_, [](const Nonzero& entry) { return entry.implied; });
+    for (Sign& s : edge->signs_) s.strict = s.strict && !s.implied;
+    at_edge_ = std::move(edge);
+  }
+  return *at_edge_;
 }
+
+bool SignTable::is_assumed_nonzero(const Polynomial& p) const { return at_edge().known_nonzero(p); }
 
 /// Whether an irreducible polynomial vanishes nowhere by its form.
 bool SignTable::is_nonzero_by_form(const Polynomial& p) const {

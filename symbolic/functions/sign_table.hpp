@@ -3,6 +3,7 @@
 #include <ginac/ginac.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,6 +37,7 @@ class SignTable {
     signs_.clear();
     nonzero_.clear();
     radicands_.clear();
+    at_edge_.reset();
   }
   /// Ends the building of the ring: what is converted from then on says no more of signs.
   void finish() { built_ = true; }
@@ -62,7 +64,8 @@ class SignTable {
   int sign_of(const Polynomial& p) const;
   /// See FunctionRing, as for the next four.
   bool is_nowhere_zero(const Polynomial& p) const;
-  /// The same of an irreducible one, but not since a root or a logarithm has no value else.
+  /// The same also at the edge of where roots and logarithms have values, of an irreducible one:
+  /// what they imply to be positive may be zero there.
   bool is_assumed_nonzero(const Polynomial& p) const;
   bool is_assumed_positive(const Polynomial& p) const;
   std::vector<Polynomial> real_zeros(const Polynomial& p) const;
@@ -124,6 +127,7 @@ class SignTable {
   bool is_nonzero_unless_listed(const Polynomial& f) const;
   void add_nonzero(const Polynomial& f, bool implied) { nonzero_.push_back({f, implied}); }
   void add_conditions(const Radicand& radicand, Implied& conditions) const;
+  const SignTable& at_edge() const;
   static bool keep(std::vector<Product>& list, const GiNaC::ex& value, bool strict);
 
   const GeneratorTable& table_;
@@ -135,6 +139,7 @@ class SignTable {
   std::vector<GiNaC::ex> divisors_;  ///< of radicands, irreducible: where one vanishes is no value
   std::vector<Product> products_;    ///< the same, where no single sign followed when it was met
   std::vector<Radicand> radicands_;  ///< all that were met since the last restart
+  mutable std::shared_ptr<const SignTable> at_edge_;  ///< made when it is asked for
 };
 
 }  // namespace casimir::functions

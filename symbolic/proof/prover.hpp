@@ -141,6 +141,10 @@ class Prover {
   ///               what they keep the signs of are Casimir functions
   std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts, bool every = false);
 
+  /// Whether `p` is seen to be infinite wherever the irreducible `f` is zero, for almost all values
+  /// of the parameters: |x|/x^2 is at x = 0, and |u|^3/u^3 is not.
+  bool has_pole(const Polynomial& p, const Polynomial& f);
+
   /// Does the motion keep the sign of `u`, and u = 0? Theorem: u(t) = u(0)*exp(int c dt) where
   /// du/dt = c*u along a solution with c continuous. Then |u| is differentiable along it, and has
   /// the rate c*|u|. Hypothesis: the denominator of c vanishes nowhere on the level, or the motion
@@ -213,6 +217,7 @@ class Prover {
   /// A Groebner basis of the ideal of the level's numerators, with the relations between squares
   /// that the ring knows. Most claims do without, and it takes the longest.
   const std::vector<Polynomial>& basis_of(const Level& level);
+  bool may_meet(const Polynomial& a, const Polynomial& b);
   std::vector<NamedExpression> simplified(const NamedExpression& f, int depth);
   /// A function of a level with its numerator.
   struct LevelFunction {
@@ -239,10 +244,13 @@ class Prover {
   void decide_branches(
       Proof& proof, const std::vector<NamedExpression>& functions, int depth,
       const std::function<void(Proof&, const std::vector<NamedExpression>&, int)>& decide_part);
-  enum class Divisors { of_motion, all };
+  /// What has no zero where something is said: what the motion divides by, with or without that of
+  /// quotients that stay bounded, as of q/|q|, which a motion passes; or the claim, too.
+  enum class Divisors { of_motion_without_kinks, of_motion, all };
   /// Whether `p` vanishes at no point of the level at which the claim says something.
   bool vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which = Divisors::all);
   const std::vector<Polynomial>& explicit_divisors(Divisors which);
+  bool is_kink_of_motion(const Polynomial& f) const;
   /// Whether an irreducible function vanishes nowhere, or is divided by; kept for this claim.
   bool seems_to_vanish(const Polynomial& f, Divisors which);
   bool is_kept_from_zero(const Polynomial& f, Divisors which);
@@ -278,7 +286,7 @@ class Prover {
   std::optional<GiNaC::symbol> spectral_;
   RealPoints real_points_;
   std::vector<GiNaC::ex> claim_, domain_, all_;
-  std::optional<std::vector<Polynomial>> divisors_, motion_divisors_;
+  std::optional<std::vector<Polynomial>> divisors_, motion_divisors_, poles_;
   Subject subject_;
   struct KeptFromZero {
     Divisors which;

@@ -123,6 +123,12 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
 /// distances from the origin of which they take the angle: where one of these vanishes, nothing is
 /// claimed.
 const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
+  if (which == Divisors::of_motion_without_kinks) {
+    if (poles_) return *poles_;
+    poles_ = explicit_divisors(Divisors::of_motion);
+    std::erase_if(*poles_, [&](const Polynomial& f) { return is_kink_of_motion(f); });
+    return *poles_;
+  }
   std::optional<std::vector<Polynomial>>& known =
       which == Divisors::all ? divisors_ : motion_divisors_;
   if (known) return *known;
@@ -163,7 +169,12 @@ const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
 bool Prover::is_kept_from_zero(const Polynomial& f, Divisors which) {
   for (const KeptFromZero& known : kept_from_zero_)
     if (known.which == which && known.function == f) return known.kept;
-  bool kept = ring_.is_nowhere_zero(f);
+  // The motion may pass where a function of the claim alone has no value.
+  const auto factors = f.factors();
+  bool kept = which == Divisors::all ? ring_.is_nowhere_zero(f)
+                                     : std::ranges::all_of(factors, [&](const auto& factor) {
+                                         return ring_.is_assumed_nonzero(factor.first);
+                                       });
   if (!kept) {
     const auto& divisors = explicit_divisors(which);
     const Polynomial minus = -f;

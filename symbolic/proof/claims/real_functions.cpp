@@ -36,22 +36,12 @@ std::vector<NamedExpression> real_ones(Prover& prover, std::vector<NamedExpressi
   return functions;
 }
 
-namespace {
-
-/// As |x|/x^2, which is 1/|x|, in lowest terms: |x|/x jumps.
-bool has_pole(Prover& prover, const Polynomial& f, const Polynomial& where) {
-  Polynomial once(f.ring()), twice(f.ring());
-  return prover.ring().lowest_terms(f).second.divide(where, &once) && once.divide(where, &twice);
-}
-
-}  // namespace
-
 std::string take_out_jumping(Prover& prover, std::vector<NamedExpression>& functions) {
   std::string which;
   std::erase_if(functions, [&](const NamedExpression& f) {
     const Polynomial value = prover.convert(f.value);
     for (const Polynomial& jump : prover.passed_jumps(value, true)) {
-      if (has_pole(prover, value, jump)) continue;
+      if (prover.has_pole(value, jump)) continue;
       which +=
           fmt::format("; {} is not counted, since it may jump where {} = 0, which motions pass",
                       f.name, prover.ring().text(jump));
