@@ -236,13 +236,13 @@ int verdict(const EnsembleReport& report) {
   return worst == Status::stopped ? kEnvironment : kNotContinued;
 }
 
-/// Parameters that the file gives are known at run time only.
+/// Parameters that the file gives are known at run time only; the others are those of the scene.
 PreparedScene prepared(const Model& model, const Scene& scene, SceneOptions how,
                        const EnsembleFile& file) {
   const std::vector<std::string> parameters = names_of_symbols(model.parameters);
   for (const std::string& column : file.columns)
     if (std::find(parameters.begin(), parameters.end(), column) != parameters.end())
-      how.fold_parameters = false;
+      how.keep_parameters.push_back(column);
   return prepare(model, scene, how);
 }
 

@@ -71,6 +71,38 @@ TEST(EnsembleFile, MembersObeyTheAssumptionsAndAreNamedOffTheConstraints) {
 }
 
 /// A declared integral that changes is no fault of the members: it is none.
+/// A power with a whole exponent that the scene gives has a value for each base.
+TEST(EnsembleFile, ParametersThatNoColumnGivesAreThoseOfTheScene) {
+  const Folder folder;
+  folder.write("power.toml", R"toml(title = "power"
+[phase_space]
+variables = ["x"]
+[parameters]
+a = {}
+n = {}
+[equations]
+x = "a^n"
+[[scene]]
+name = "default"
+initial = { x = "0" }
+parameters = { a = "-2", n = "3" }
+duration = "1"
+)toml");
+  folder.write("a.csv", "a\n-2\n-3\n");
+  const Outcome outcome = run_in(
+      folder, {"integrate", "./power.toml", "--ensemble", "a.csv", "--output", "x.csv", "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string table = file_text(folder / "x.csv");
+  EXPECT_TRUE(has(table, ",-8")) << table;
+  EXPECT_TRUE(has(table, ",-27")) << table;
+  const Outcome sweep =
+      run_in(folder, {"sweep", "./power.toml", "--over", "a=-3:-2:2", "--output", "s.csv"});
+  EXPECT_EQ(sweep.status, 0) << sweep.err;
+  // The exponent is known at run time only: then the code takes a logarithm of the base.
+  folder.write("n.csv", "n\n2\n3\n");
+  EXPECT_EQ(run_in(folder, {"integrate", "./power.toml", "--ensemble", "n.csv"}).status, 2);
+}
+
 TEST(EnsembleFile, AnIntegralThatIsRefutedIsNamed) {
   const Folder folder;
   write(folder, "turn.toml",

@@ -127,7 +127,7 @@ bool may_pass_over(const PreparedScene& run, const Settings& settings) {
 std::string require_members(const Model& model, const Scene& scene, const Specialisation& s,
                             const Ensemble& ensemble) {
   if (model.constraints.empty() && model.assumptions.empty() &&
-      implied_by_parameters(model).empty())
+      implied_by_parameters(model, {}).empty())
     return {};
   PointCheck check(model, scene, s);
   std::size_t beside = 0;

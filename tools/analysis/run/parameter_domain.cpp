@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 namespace {
@@ -13,7 +14,8 @@ using GiNaC::ex;
 
 class ParameterDomain {
  public:
-  explicit ParameterDomain(const Model& model) : model_(model) {}
+  ParameterDomain(const Model& model, const GiNaC::exmap& folded)
+      : model_(model), folded_(folded) {}
 
   std::vector<Assumption> conditions() && {
     std::vector<ex> written = model_.domain;
@@ -27,9 +29,11 @@ class ParameterDomain {
       if (model_.hamiltonian)
         for (const ex& rate : model_.poisson->flow(*model_.hamiltonian)) written.push_back(rate);
     }
-    for (const ex& expression : written)
+    for (ex expression : written) {
+      if (!folded_.empty()) expression = substituted(expression, folded_, model_.limits);
       for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)
         look(*part);
+    }
     return std::move(conditions_);
   }
 
@@ -72,13 +76,14 @@ class ParameterDomain {
   }
 
   const Model& model_;
+  const GiNaC::exmap& folded_;
   std::vector<Assumption> conditions_;
 };
 
 }  // namespace
 
-std::vector<Assumption> implied_by_parameters(const Model& model) {
-  return ParameterDomain(model).conditions();
+std::vector<Assumption> implied_by_parameters(const Model& model, const GiNaC::exmap& folded) {
+  return ParameterDomain(model, folded).conditions();
 }
 
 }  // namespace casimir

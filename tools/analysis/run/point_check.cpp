@@ -42,7 +42,11 @@ PointCheck::PointCheck(const Model& model, const Scene& scene, const Specialisat
   }
   assumptions_ = own.assumptions;
   implied_ = assumptions_.size();
-  for (Assumption& one : implied_by_parameters(own)) assumptions_.push_back(std::move(one));
+  GiNaC::exmap folded;
+  for (std::size_t i = 0; i < own.parameters.size(); ++i)
+    if (!std::ranges::count(s.parameters, own.parameters[i].get_name()))
+      folded[own.parameters[i]] = own_scene.parameters.at(i);
+  for (Assumption& one : implied_by_parameters(own, folded)) assumptions_.push_back(std::move(one));
   for (const Assumption& a : assumptions_) functions.push_back(a.difference);
   const std::vector<GiNaC::symbol> symbols = own.symbols();
   for (std::size_t i = 0; i < constraints_.size(); ++i)
