@@ -114,20 +114,26 @@ std::optional<FunctionPieces::Leading> FunctionPieces::leading_at(const Polynomi
   return several ? std::nullopt : result;
 }
 
-std::optional<Polynomial> FunctionPieces::pole_coefficient(const Polynomial& p,
-                                                           const Polynomial& f) const {
+/// Sines and exponentials of functions that stay finite are bounded, and exponentials of them are
+/// not zero: (q^2)^a, which is exp(a*log(q^2)), is at q = 0.
+std::optional<FunctionPieces::Pole> FunctionPieces::pole_at(const Polynomial& p,
+                                                            const Polynomial& f) const {
   const auto [top, bottom] = table_.lowest_terms(p);
+  for (const std::size_t g : table_.generators_in({top, bottom})) {
+    const Generator& own = table_.generators()[g];
+    const bool finite = own.base.is_zero() || table_.fraction(own.base).second.is_constant();
+    if (own.kind == Kind::function || own.kind == Kind::imaginary || !finite) return std::nullopt;
+  }
   const auto of_top = leading_at(top, f), of_bottom = leading_at(bottom, f);
   if (!of_top || !of_bottom || of_top->order >= of_bottom->order) return std::nullopt;
   Polynomial coefficient = table_.ring().constant(1), divisor = of_bottom->coefficient;
   for (const auto& [factor, exponent] : of_top->coefficient.factors())
     if (factor.is_constant() || take_out(divisor, factor) < exponent) coefficient *= factor;
-  return coefficient;
+  return Pole{of_bottom->order - of_top->order, coefficient};
 }
 
-/// In the variables that `f` uses; nothing where other functions than roots have these.
-std::optional<double> FunctionPieces::lowest_degree(const Polynomial& p,
-                                                    const Polynomial& f) const {
+/// In the variables that `f` uses; other functions than roots count as numbers.
+double FunctionPieces::lowest_degree(const Polynomial& p, const Polynomial& f) const {
   std::vector<double> weights(table_.ring().size(), 0);
   for (std::size_t i = 0; i < table_.symbols().size(); ++i) weights[i] = f.uses(i) ? 1 : 0;
   const auto lowest = [&](const Polynomial& q) {
@@ -146,11 +152,7 @@ std::optional<double> FunctionPieces::lowest_degree(const Polynomial& p,
       const double order = own.kind == Kind::root ? static_cast<double>(own.order) : 2;
       const auto [top, bottom] = table_.fraction(own.base);
       weights[table_.place(g)] = (lowest(top) - lowest(bottom)) / order;
-      continue;
     }
-    for (std::size_t i = 0; i < table_.symbols().size(); ++i)
-      if (f.uses(i) && table_.depends_on(table_.ring().variable(table_.place(g)), i))
-        return std::nullopt;
   }
   return lowest(p);
 }
@@ -166,8 +168,7 @@ bool FunctionPieces::grows_towards_zero(const Polynomial& p, const Polynomial& f
     highest = std::max(highest, degree);
   }
   const auto [top, bottom] = table_.lowest_terms(p);
-  const auto of_top = lowest_degree(top, f), of_bottom = lowest_degree(bottom, f);
-  return of_top && of_bottom && lowest_degree(f, f) == highest && *of_top < *of_bottom;
+  return lowest_degree(f, f) == highest && lowest_degree(top, f) < lowest_degree(bottom, f);
 }
 
 /// Two of them have to be zero: those that are shown to be, or others that may be.

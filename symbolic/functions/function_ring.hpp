@@ -142,6 +142,10 @@ class FunctionRing {
   /// Functions whose common real zeros are those of `p`: where that is a sum of squares, or of what
   /// is not negative, all of its parts; else `p` itself.
   std::vector<Polynomial> real_zeros(const Polynomial& p) const { return signs_.real_zeros(p); }
+  /// The same at the edge of where roots and logarithms have values, too.
+  std::vector<Polynomial> real_zeros_at_edge(const Polynomial& p) const {
+    return signs_.at_edge().real_zeros(p);
+  }
 
   /// Whether each factor has a strict sign that is assumed, not implied by roots and logarithms,
   /// and their product is positive; also true of exponentials.
@@ -168,8 +172,9 @@ class FunctionRing {
   }
 
   /// See `FunctionPieces`.
-  std::optional<Polynomial> pole_coefficient(const Polynomial& p, const Polynomial& f) const {
-    return pieces_.pole_coefficient(p, f);
+  std::optional<functions::FunctionPieces::Pole> pole_at(const Polynomial& p,
+                                                         const Polynomial& f) const {
+    return pieces_.pole_at(p, f);
   }
   bool grows_towards_zero(const Polynomial& p, const Polynomial& f) const {
     return pieces_.grows_towards_zero(p, f);

@@ -64,6 +64,9 @@ class SignTable {
   int sign_of(const Polynomial& p) const;
   /// See FunctionRing, as for the next four.
   bool is_nowhere_zero(const Polynomial& p) const;
+  /// What is known at the edge of where roots and logarithms have values, too: what they imply to
+  /// be positive may be zero there.
+  const SignTable& at_edge() const;
   /// The same also at the edge of where roots and logarithms have values, of an irreducible one:
   /// what they imply to be positive may be zero there.
   bool is_assumed_nonzero(const Polynomial& p) const;
@@ -127,7 +130,6 @@ class SignTable {
   bool is_nonzero_unless_listed(const Polynomial& f) const;
   void add_nonzero(const Polynomial& f, bool implied) { nonzero_.push_back({f, implied}); }
   void add_conditions(const Radicand& radicand, Implied& conditions) const;
-  const SignTable& at_edge() const;
   static bool keep(std::vector<Product>& list, const GiNaC::ex& value, bool strict);
 
   const GeneratorTable& table_;

@@ -127,6 +127,14 @@ class Prover {
   /// Says of a proved claim about brackets of these functions that it holds where they are
   /// differentiable: {q + |p|, p} is 1 but where p = 0, whatever the bracket multiplies sign(p) by.
   void say_where_differentiable(Proof& proof, const std::vector<GiNaC::ex>& functions);
+  enum class Motions {
+    all,         ///< of the case
+    almost_all,  ///< but for those that come to a pole of the equations where it has none
+    /// Of the flows of all Hamiltonians, as where a claim is about the bracket alone: what they
+    /// keep the signs of are Casimir functions.
+    of_every_hamiltonian
+  };
+
   /// Where a function may jump on the way of a motion: what vanishes there; empty where it is shown
   /// that it does not. The derivative of sign(x)*y along a motion may vanish wherever it has one,
   /// and still it is another constant behind x = 0; a density that jumps where the motion passes is
@@ -137,13 +145,14 @@ class Prover {
   /// vanishes; one that vanishes nowhere, whose sign the motion keeps (`keeps_sign`), or at whose
   /// zeros the motion has no value on either side, is passed by none.
   /// \param cuts  with the jumps of angles
-  /// \param every  of the flows of all Hamiltonians, as where the claim is about the bracket alone:
-  ///               what they keep the signs of are Casimir functions
-  std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts, bool every = false);
+  std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts,
+                                       Motions motions = Motions::all);
 
   /// Whether `p` is seen to be infinite wherever the irreducible `f` is zero, for almost all values
   /// of the parameters: |x|/x^2 is at x = 0, and |u|^3/u^3 is not.
   bool has_pole(const Polynomial& p, const Polynomial& f);
+  /// The same of almost all of these points, as far as orders tell; `p` need not jump there.
+  bool seems_to_have_pole(const Polynomial& p, const Polynomial& f);
 
   /// Does the motion keep the sign of `u`, and u = 0? Theorem: u(t) = u(0)*exp(int c dt) where
   /// du/dt = c*u along a solution with c continuous. Then |u| is differentiable along it, and has
@@ -209,6 +218,7 @@ class Prover {
   std::optional<RealPoint> exact_point(const Level& level);
 
  private:
+  friend class PassedJumps;
   const Polynomial& used(const Polynomial& p) const {
     if (!ring_.is_polynomial()) ring_.mark_denominators(p, divided_by_);
     return p;
@@ -244,13 +254,15 @@ class Prover {
   void decide_branches(
       Proof& proof, const std::vector<NamedExpression>& functions, int depth,
       const std::function<void(Proof&, const std::vector<NamedExpression>&, int)>& decide_part);
-  /// What has no zero where something is said: what the motion divides by, with or without that of
-  /// quotients that stay bounded, as of q/|q|, which a motion passes; or the claim, too.
-  enum class Divisors { of_motion_without_kinks, of_motion, all };
+  /// What has no zero where something is said: what the motion divides by and ends at, or whatever
+  /// the claim divides by, too.
+  enum class Divisors { of_motion, all };
   /// Whether `p` vanishes at no point of the level at which the claim says something.
   bool vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which = Divisors::all);
   const std::vector<Polynomial>& explicit_divisors(Divisors which);
-  bool is_kink_of_motion(const Polynomial& f) const;
+  bool ends_motions(const Polynomial& f);
+  bool ends_almost_all_motions(const Polynomial& f);
+  bool is_nonzero_somewhere(const Polynomial& p, const Polynomial& f);
   /// Whether an irreducible function vanishes nowhere, or is divided by; kept for this claim.
   bool seems_to_vanish(const Polynomial& f, Divisors which);
   bool is_kept_from_zero(const Polynomial& f, Divisors which);
@@ -286,7 +298,7 @@ class Prover {
   std::optional<GiNaC::symbol> spectral_;
   RealPoints real_points_;
   std::vector<GiNaC::ex> claim_, domain_, all_;
-  std::optional<std::vector<Polynomial>> divisors_, motion_divisors_, poles_;
+  std::optional<std::vector<Polynomial>> divisors_, motion_divisors_;
   Subject subject_;
   struct KeptFromZero {
     Divisors which;

@@ -123,12 +123,6 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
 /// distances from the origin of which they take the angle: where one of these vanishes, nothing is
 /// claimed.
 const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
-  if (which == Divisors::of_motion_without_kinks) {
-    if (poles_) return *poles_;
-    poles_ = explicit_divisors(Divisors::of_motion);
-    std::erase_if(*poles_, [&](const Polynomial& f) { return is_kink_of_motion(f); });
-    return *poles_;
-  }
   std::optional<std::vector<Polynomial>>& known =
       which == Divisors::all ? divisors_ : motion_divisors_;
   if (known) return *known;
@@ -163,6 +157,8 @@ const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
       }
     }
   }
+  if (which == Divisors::of_motion && has_motion())
+    std::erase_if(*known, [&](const Polynomial& f) { return !ends_motions(f); });
   return *known;
 }
 
@@ -205,7 +201,8 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
     std::vector<Polynomial> ideal = level.numerators;
     const std::vector<Polynomial>& identities = square_relations();
     ideal.insert(ideal.end(), identities.begin(), identities.end());
-    const std::vector<Polynomial> zeros = ring_.real_zeros(f);
+    const std::vector<Polynomial> zeros =
+        which == Divisors::all ? ring_.real_zeros(f) : ring_.real_zeros_at_edge(f);
     ideal.insert(ideal.end(), zeros.begin(), zeros.end());
     const std::vector<Polynomial> basis = groebner_basis(ideal, kSmallBasis);
     // Or a divisor vanishes wherever f does, so that nothing is claimed there.

@@ -36,12 +36,22 @@ std::vector<NamedExpression> real_ones(Prover& prover, std::vector<NamedExpressi
   return functions;
 }
 
+namespace {
+
+/// Few motions come to such a place, if any does: the others are counted.
+bool has_hamiltonian_pole(Prover& prover, const Polynomial& f) {
+  const auto& hamiltonian = prover.model().hamiltonian;
+  return hamiltonian && prover.seems_to_have_pole(prover.convert(*hamiltonian), f);
+}
+
+}  // namespace
+
 std::string take_out_jumping(Prover& prover, std::vector<NamedExpression>& functions) {
   std::string which;
   std::erase_if(functions, [&](const NamedExpression& f) {
     const Polynomial value = prover.convert(f.value);
     for (const Polynomial& jump : prover.passed_jumps(value, true)) {
-      if (prover.has_pole(value, jump)) continue;
+      if (prover.seems_to_have_pole(value, jump) || has_hamiltonian_pole(prover, jump)) continue;
       which +=
           fmt::format("; {} is not counted, since it may jump where {} = 0, which motions pass",
                       f.name, prover.ring().text(jump));

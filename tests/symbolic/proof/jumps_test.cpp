@@ -69,6 +69,11 @@ TEST(Jumps, AMotionLeavesALevelByThem) {
   // On y = 0 the root has no value where x is zero, and this is x/|x|.
   EXPECT_EQ(of_relation("z - x/sqrt(x^2 + y^2)", "y").verdict, Verdict::undecided);
   EXPECT_EQ(of_relation("z - x/sqrt(x^2 + y^2 + y^4)", "y").verdict, Verdict::undecided);
+  // The numerator is smooth, and the quotient is not.
+  for (const char* f : {"x*abs(x)/(x^2 + y^2)", "x^3*abs(x)/(x^2 + y^2)^2", "(x^2)^(3/2)/(x^3 + y)",
+                        // That it has a value says nothing of where it has none.
+                        "x/sqrt(x^2 + y^2) - log(x*(x + y)) + log(x^2)"})
+    EXPECT_EQ(of_relation(std::string("z - ") + f, "y").verdict, Verdict::undecided) << f;
   // Where nothing is crossed.
   EXPECT_EQ(of_relation("z - sign(y)").verdict, Verdict::proved);
   EXPECT_EQ(of_relation("z - sign(x)", "", "x > 0").verdict, Verdict::proved);
@@ -90,6 +95,13 @@ on = ["q1*p2 - q2*p1"]
   EXPECT_EQ(relation("(p1^2 + p2^2)/2"), Verdict::undecided);
   EXPECT_EQ(relation("(p1^2 + p2^2)/2 + sqrt(q1^2 + q2^2)"), Verdict::undecided);
   EXPECT_EQ(relation("(p1^2 + p2^2)/2 - 1/sqrt(q1^2 + q2^2)"), Verdict::proved);  // it does not
+  // What is divided by is infinite nowhere.
+  for (const char* potential :
+       {"(1 - sqrt(1 + q1^2 + q2^2))/(q1^2 + q2^2)", "(q1^2 + q2^2)/sqrt(q1^2 + q2^2)",
+        "(q1^2 + q2^2)^(3/2)", "sin(sqrt(q1^2 + q2^2))/sqrt(q1^2 + q2^2)",
+        "log(1 + sqrt(q1^2 + q2^2))/sqrt(q1^2 + q2^2)"})
+    EXPECT_EQ(relation("(p1^2 + p2^2)/2 - " + std::string(potential)), Verdict::undecided)
+        << potential;
 }
 
 /// As bare equations: bounded forces do not end a motion, poles do.
@@ -109,6 +121,38 @@ on = ["q1*p2 - q2*p1"]
   };
   EXPECT_EQ(relation(""), Verdict::undecided);
   EXPECT_EQ(relation("^3"), Verdict::proved);
+  EXPECT_EQ(relation("^3*exp(-sqrt(q1^2 + q2^2))*(1 + sqrt(q1^2 + q2^2))"), Verdict::proved);
+  for (const char* rate : {"sin(x)/x", "exp(-1/x^2)", "1/sqrt(abs(x))", "x*y/(x^2 + y^2)"})
+    EXPECT_EQ(proof_in_case("invariant_relation",
+                            "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = "
+                            "\"1\"\ny = \"" +
+                                std::string(rate) +
+                                "\"\nz = \"0\"\n[[invariant_relation]]"
+                                "\nname = \"R\"\nexpression = \"z - sign(x)\"\n")
+                  .verdict,
+              Verdict::undecided)
+        << rate;
+}
+
+/// (q^2)^a is q^4 where a is 2.
+TEST(Jumps, PowersWithOpenExponentsEndNoMotion) {
+  const std::string text = R"toml(
+integrable = true
+hamiltonian = "(p1^2 + p2^2)/2 + (q1^2)^a"
+[parameters]
+a = { assume = "a > 1" }
+[phase_space]
+variables = ["q1", "q2", "p1", "p2"]
+canonical = true
+[integrals]
+F = "p2*sign(q1)"
+[[invariant_relation]]
+name = "R"
+expression = "p2 - sign(q1)"
+)toml";
+  EXPECT_EQ(proof_in_case("invariant_relation", text).verdict, Verdict::undecided);
+  EXPECT_FALSE(proof_in_case("integral", text).jumps.empty());
+  EXPECT_EQ(proof_in_case("liouville", text).verdict, Verdict::undecided);
 }
 
 /// A rotor that is free on one side of u = sin(q1) + cos(q1) and kicked on the other one: every
