@@ -200,9 +200,11 @@ std::vector<Polynomial> FunctionPieces::zeros_of(const Polynomial& f) const {
   return {f};
 }
 
-std::vector<JumpPlace> FunctionPieces::jump_factors(const Polynomial& p, bool cuts) const {
+std::vector<JumpPlace> FunctionPieces::jump_factors(const Polynomial& p, bool cuts,
+                                                    const std::vector<Polynomial>& more) const {
   std::vector<JumpPlace> result;
-  const std::vector<Polynomial> rough = radicand_factors(p);
+  std::vector<Polynomial> rough = radicand_factors(p);
+  rough.insert(rough.end(), more.begin(), more.end());
   const auto add = [&](const Polynomial& zero, const std::optional<Polynomial>& with) {
     if (zero.is_constant()) return;
     if (std::none_of(result.begin(), result.end(), [&](const JumpPlace& known) {

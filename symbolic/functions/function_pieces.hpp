@@ -34,7 +34,10 @@ class FunctionPieces {
   /// r - 1, with r = sqrt(x), that is not written.
   /// \param cuts  with those of atan2, and of arguments of other functions than atan and atan2 that
   ///              become infinite
-  std::vector<JumpPlace> jump_factors(const Polynomial& p, bool cuts = true) const;
+  /// \param more  what may be zero where the functions in `p` are not analytic along a motion,
+  ///              beside what stands under its roots
+  std::vector<JumpPlace> jump_factors(const Polynomial& p, bool cuts = true,
+                                      const std::vector<Polynomial>& more = {}) const;
 
   /// Of quotients N/D within other functions: log(N/D) has become log(N) - log(D), of which both
   /// are infinite where N/D jumps, and atan2(N/D, 3) is atan2(N, 3*D), the angle of the origin

@@ -160,8 +160,9 @@ class FunctionRing {
 
   /// Where `p`, having values on both sides, may jump.
   /// \param cuts  as of `FunctionPieces`
-  std::vector<functions::JumpPlace> jump_factors(const Polynomial& p, bool cuts = true) const {
-    return pieces_.jump_factors(p, cuts);
+  std::vector<functions::JumpPlace> jump_factors(const Polynomial& p, bool cuts,
+                                                 const std::vector<Polynomial>& more) const {
+    return pieces_.jump_factors(p, cuts, more);
   }
   /// See `FunctionPieces`.
   std::vector<functions::JumpPlace> split_jump_factors(const Polynomial& p) const {

@@ -127,14 +127,6 @@ class Prover {
   /// Says of a proved claim about brackets of these functions that it holds where they are
   /// differentiable: {q + |p|, p} is 1 but where p = 0, whatever the bracket multiplies sign(p) by.
   void say_where_differentiable(Proof& proof, const std::vector<GiNaC::ex>& functions);
-  enum class Motions {
-    all,         ///< of the case
-    almost_all,  ///< but for those that come to a pole of the equations where it has none
-    /// Of the flows of all Hamiltonians, as where a claim is about the bracket alone: what they
-    /// keep the signs of are Casimir functions.
-    of_every_hamiltonian
-  };
-
   /// Where a function may jump on the way of a motion: what vanishes there; empty where it is shown
   /// that it does not. The derivative of sign(x)*y along a motion may vanish wherever it has one,
   /// and still it is another constant behind x = 0; a density that jumps where the motion passes is
@@ -145,11 +137,12 @@ class Prover {
   /// vanishes; one that vanishes nowhere, whose sign the motion keeps (`keeps_sign`), or at whose
   /// zeros the motion has no value on either side, is passed by none.
   /// \param cuts  with the jumps of angles
-  std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts,
-                                       Motions motions = Motions::all);
+  /// \param every  of the flows of all Hamiltonians, as where the claim is about the bracket alone:
+  ///               what they keep the signs of are Casimir functions
+  std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts, bool every = false);
 
-  /// Whether `p` is seen to be infinite wherever the irreducible `f` is zero, for almost all values
-  /// of the parameters: |x|/x^2 is at x = 0, and |u|^3/u^3 is not.
+  /// Whether `p` is seen to be infinite wherever the irreducible `f` is zero, for all values of the
+  /// parameters: |x|/x^2 is at x = 0, and |u|^3/u^3 is not, nor is k/x unless k is not zero.
   bool has_pole(const Polynomial& p, const Polynomial& f);
   /// The same of almost all of these points, as far as orders tell; `p` need not jump there.
   bool seems_to_have_pole(const Polynomial& p, const Polynomial& f);
@@ -261,7 +254,9 @@ class Prover {
   bool vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which = Divisors::all);
   const std::vector<Polynomial>& explicit_divisors(Divisors which);
   bool ends_motions(const Polynomial& f);
-  bool ends_almost_all_motions(const Polynomial& f);
+  std::vector<Polynomial> kinks_of_motion() const;
+  /// Whether it depends on variables, or on the time.
+  bool varies(const Polynomial& p) const;
   bool is_nonzero_somewhere(const Polynomial& p, const Polynomial& f);
   /// Whether an irreducible function vanishes nowhere, or is divided by; kept for this claim.
   bool seems_to_vanish(const Polynomial& f, Divisors which);

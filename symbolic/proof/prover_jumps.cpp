@@ -38,7 +38,7 @@ bool Prover::has_pole(const Polynomial& p, const Polynomial& f) {
   if (!pole) return false;
   const auto factors = pole->coefficient.factors();
   return std::ranges::none_of(factors, [&](const auto& factor) {
-    return ring_.depends_on_first(factor.first, dimension()) && may_meet(factor.first, f);
+    return !factor.first.is_constant() && may_meet(factor.first, f);
   });
 }
 
@@ -72,57 +72,41 @@ bool Prover::is_nonzero_somewhere(const Polynomial& p, const Polynomial& f) {
   return true;
 }
 
-/// Whether a motion ends where the irreducible f, which its equations divide by, is zero. A state
-/// that stays finite there would have an infinite energy, or a velocity whose integral is: like
-/// 1/f or more, like 1/sqrt(f) where f is a sum of squares, of the order of t^2 on a way through
-/// its zero. A bounded force ends none: q/|q| and sin(q)/q.
+/// Whether a motion ends where the irreducible f, which its equations divide by, is zero: a state
+/// that stays finite there would have an infinite energy, which is conserved. A velocity that is
+/// infinite ends none, as x' = 1/x^2 shows, whose x is (3 t)^(1/3), nor does what is bounded.
 bool Prover::ends_motions(const Polynomial& f) {
-  constexpr std::size_t kMostTerms = 300;
-  if (model_.hamiltonian && has_pole(convert(*model_.hamiltonian), f)) return true;
-  Polynomial squares(ring_.ring());
-  for (const Polynomial& rate : field()) {
-    const Polynomial bottom = ring_.lowest_terms(rate).second;
-    if (!ring_.vanishes_with(bottom, f)) continue;
-    if (rate.terms() * rate.terms() + squares.terms() > kMostTerms * kMostTerms) return false;
-    squares += ring_.checked_product(rate, rate);
-  }
-  const auto pole = ring_.pole_at(squares, f);
-  const double least = ring_.real_zeros_at_edge(f).size() > 1 ? 1 : 2;
-  return pole && pole->order >= least && has_pole(squares, f);
+  return model_.hamiltonian && !model_.time && has_pole(convert(*model_.hamiltonian), f);
 }
 
-/// The same of almost all motions that come there: one equation at least has a pole 1/f or more,
-/// the coefficient of which, a polynomial of the symbols as f is, is not zero all over f = 0.
-bool Prover::ends_almost_all_motions(const Polynomial& f) {
-  const auto in_symbols = [&](const Polynomial& p) {
-    for (std::size_t i = ring_.symbols().size(); i < ring_.ring().size(); ++i)
-      if (p.uses(i)) return false;
-    return true;
-  };
-  if (!in_symbols(f)) return false;
-  return std::ranges::any_of(field(), [&](const Polynomial& rate) {
-    const auto pole = ring_.pole_at(rate, f);
-    return pole && pole->order >= 1 && in_symbols(pole->coefficient) &&
-           is_nonzero_somewhere(pole->coefficient, f);
-  });
+bool Prover::varies(const Polynomial& p) const {
+  return ring_.depends_on_first(p, dimension()) ||
+         (model_.time && ring_.depends_on(p, dimension() + model_.parameters.size()));
+}
+
+/// What stands under roots in the equations: a motion is analytic where none of it is zero.
+std::vector<Polynomial> Prover::kinks_of_motion() const {
+  std::vector<Polynomial> kinks;
+  if (!has_motion()) return kinks;
+  for (const Polynomial& rate : field())
+    for (Polynomial& f : ring_.radicand_factors(rate))
+      if (varies(f) && std::find(kinks.begin(), kinks.end(), f) == kinks.end())
+        kinks.push_back(std::move(f));
+  return kinks;
 }
 
 /// What a motion passes of the places where a function may jump.
 class PassedJumps {
  public:
-  PassedJumps(Prover& prover, Prover::Motions motions)
-      : prover_(prover),
-        every_(motions == Prover::Motions::of_every_hamiltonian),
-        almost_(motions == Prover::Motions::almost_all) {}
+  PassedJumps(Prover& prover, bool every)
+      : prover_(prover), every_(every || !prover.has_motion()) {}
 
   /// \param split  as of `split_jump_factors`
   void add(std::vector<functions::JumpPlace> places, bool split) {
-    const FunctionRing& ring = prover_.ring();
     for (functions::JumpPlace& place : places) {
       if (!is_passed(place.zero, split)) continue;
-      if (place.with &&
-          !(ring.depends_on_first(*place.with, prover_.dimension()) &&
-            is_passed(*place.with, split) && prover_.may_meet(place.zero, *place.with)))
+      if (place.with && !(prover_.varies(*place.with) && is_passed(*place.with, split) &&
+                          prover_.may_meet(place.zero, *place.with)))
         continue;
       if (std::find(passed_.begin(), passed_.end(), place.zero) == passed_.end())
         passed_.push_back(std::move(place.zero));
@@ -136,8 +120,7 @@ class PassedJumps {
   /// value: that f is not zero where it has one says nothing.
   bool is_passed(const Polynomial& f, bool split) const {
     const bool implied = prover_.ring().is_nowhere_zero(f);
-    if (!split && implied && ends_in_pole(f)) return false;
-    if (almost_ && prover_.ends_almost_all_motions(f)) return false;
+    if (!split && implied && !every_ && prover_.ends_motions(f)) return false;
     const bool strictly = split || implied;
     return !prover_.ring().is_assumed_nonzero(f) && !(strictly ? divides(f) : ends_motion(f)) &&
            !is_kept(f);
@@ -152,13 +135,6 @@ class PassedJumps {
                                           [&](const Polynomial& d) { return d == f || d == -f; });
   }
 
-  /// The Hamiltonian is infinite there, and no motion comes to such a place but by a collision.
-  bool ends_in_pole(const Polynomial& f) const {
-    const Model& model = prover_.model();
-    return prover_.has_motion() && model.hamiltonian &&
-           prover_.has_pole(prover_.convert(*model.hamiltonian), f);
-  }
-
   bool is_kept(const Polynomial& f) const {
     if (!every_) return prover_.keeps_sign(f, {});
     const std::vector<Polynomial> flow = prover_.flow_of(prover_.gradient(f));
@@ -167,15 +143,14 @@ class PassedJumps {
   }
 
   Prover& prover_;
-  bool every_, almost_;
+  bool every_;
   std::vector<Polynomial> passed_;
 };
 
-std::vector<Polynomial> Prover::passed_jumps(const Polynomial& function, bool cuts,
-                                             Motions motions) {
+std::vector<Polynomial> Prover::passed_jumps(const Polynomial& function, bool cuts, bool every) {
   if (ring_.is_polynomial()) return {};
-  PassedJumps jumps(*this, has_motion() ? motions : Motions::of_every_hamiltonian);
-  jumps.add(ring_.jump_factors(function, cuts), false);
+  PassedJumps jumps(*this, every);
+  jumps.add(ring_.jump_factors(function, cuts, kinks_of_motion()), false);
   jumps.add(ring_.split_jump_factors(function), true);
   return std::move(jumps).passed();
 }

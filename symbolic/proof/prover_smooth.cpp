@@ -34,14 +34,28 @@ bool Prover::is_smooth_on(Proof& proof, const Level& level,
                           const std::vector<NamedExpression>& list, Smooth smooth) {
   if (ring_.is_polynomial()) return true;
   const bool continuous = smooth == Smooth::without_jumps;
+  const auto kinks = continuous ? kinks_of_motion() : std::vector<Polynomial>{};
+  const bool analytic = std::ranges::all_of(kinks, [&](const auto& kink) {
+    return vanishes_nowhere_on(kink, level, Divisors::of_motion);
+  });
   for (const NamedExpression& f : list) {
     const Polynomial& value = convert(f.value);
+    // Along analytic motions a quotient that is constant has no pole; y/x^2 has one value along
+    // (t, t^2) and another along (t, -t^2).
+    const Polynomial bottom = ring_.lowest_terms(value).second;
+    if (!analytic && !vanishes_nowhere_on(bottom, level, Divisors::of_motion)) {
+      proof.verdict = Verdict::undecided;
+      proof.evidence.clear();
+      proof.reason =
+          fmt::format("{} is divided by {}, which may vanish where a motion that has kinks passes",
+                      f.name, ring_.text(bottom));
+      return false;
+    }
     for (const Polynomial& radicand : ring_.radicand_factors(value, continuous)) {
       // What only the claim divides by, the motion passes: x/|x| is 1 until it is -1.
       const Divisors which = continuous ? Divisors::of_motion : Divisors::all;
       // y*|y| is smooth, y*|y|/y^2 is not.
-      if (ring_.is_smooth_across(value, radicand) &&
-          vanishes_nowhere_on(ring_.lowest_terms(value).second, level, which))
+      if (ring_.is_smooth_across(value, radicand) && vanishes_nowhere_on(bottom, level, which))
         continue;
       if (vanishes_nowhere_on(radicand, level, which)) continue;
       // Unless what is not zero never becomes it: x/|x| stays 1 where dx/dt = x.

@@ -153,9 +153,7 @@ void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density
   judge_density(prover, proof, density.value);
   if (proof.verdict != Verdict::proved) return;
   std::vector<std::string> where;
-  for (const Polynomial& f : prover.passed_jumps(
-           prover.convert(density.value), true,
-           every ? Prover::Motions::of_every_hamiltonian : Prover::Motions::almost_all))
+  for (const Polynomial& f : prover.passed_jumps(prover.convert(density.value), true, every))
     where.push_back(fmt::format("on motions that do not cross {} = 0", prover.ring().text(f)));
   say_where(proof, "", where);
 }

@@ -80,7 +80,7 @@ TEST(Jumps, AMotionLeavesALevelByThem) {
 }
 
 TEST(Jumps, AFreeParticleComesOutOfTheOriginOnTheOtherSide) {
-  const auto relation = [](const std::string& hamiltonian) {
+  const auto relation = [](const std::string& hamiltonian, const std::string& parameters = "") {
     return proof_in_case("invariant_relation", "hamiltonian = \"" + hamiltonian + R"toml("
 [phase_space]
 variables = ["q1", "q2", "p1", "p2"]
@@ -89,10 +89,13 @@ canonical = true
 name = "R"
 expression = "q1/sqrt(q1^2 + q2^2) - 3/5"
 on = ["q1*p2 - q2*p1"]
-)toml")
+)toml" + parameters)
         .verdict;
   };
   EXPECT_EQ(relation("(p1^2 + p2^2)/2"), Verdict::undecided);
+  const std::string kepler = "(p1^2 + p2^2)/2 - k/sqrt(q1^2 + q2^2)";
+  EXPECT_EQ(relation(kepler, "[parameters]\nk = {}\n"), Verdict::undecided);
+  EXPECT_EQ(relation(kepler, "[parameters]\nk = { assume = \"k > 0\" }\n"), Verdict::proved);
   EXPECT_EQ(relation("(p1^2 + p2^2)/2 + sqrt(q1^2 + q2^2)"), Verdict::undecided);
   EXPECT_EQ(relation("(p1^2 + p2^2)/2 - 1/sqrt(q1^2 + q2^2)"), Verdict::proved);  // it does not
   // What is divided by is infinite nowhere.
@@ -104,25 +107,10 @@ on = ["q1*p2 - q2*p1"]
         << potential;
 }
 
-/// As bare equations: bounded forces do not end a motion, poles do.
-TEST(Jumps, BoundedForcesDoNotEndAMotion) {
-  const auto relation = [](const std::string& power) {
-    return proof_in_case(
-               "invariant_relation",
-               "[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", \"p2\"]\n[equations]\n"
-               "q1 = \"p1\"\nq2 = \"p2\"\np1 = \"-q1/sqrt(q1^2 + q2^2)" +
-                   power + "\"\np2 = \"-q2/sqrt(q1^2 + q2^2)" + power + R"toml("
-[[invariant_relation]]
-name = "R"
-expression = "q1/sqrt(q1^2 + q2^2) - 3/5"
-on = ["q1*p2 - q2*p1"]
-)toml")
-        .verdict;
-  };
-  EXPECT_EQ(relation(""), Verdict::undecided);
-  EXPECT_EQ(relation("^3"), Verdict::proved);
-  EXPECT_EQ(relation("^3*exp(-sqrt(q1^2 + q2^2))*(1 + sqrt(q1^2 + q2^2))"), Verdict::proved);
-  for (const char* rate : {"sin(x)/x", "exp(-1/x^2)", "1/sqrt(abs(x))", "x*y/(x^2 + y^2)"})
+/// As bare equations, which conserve no energy that is known: x' = 1/x^2 has the solution (3
+/// t)^(1/3).
+TEST(Jumps, NoVelocityEndsAMotion) {
+  for (const char* rate : {"sin(x)/x", "exp(-1/x^2)", "1/sqrt(abs(x))", "x*y/(x^2 + y^2)", "1/x^2"})
     EXPECT_EQ(proof_in_case("invariant_relation",
                             "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = "
                             "\"1\"\ny = \"" +
@@ -132,6 +120,52 @@ on = ["q1*p2 - q2*p1"]
                   .verdict,
               Verdict::undecided)
         << rate;
+}
+
+/// An energy that depends on the time is not conserved, and t is zero once.
+TEST(Jumps, AnEnergyThatIsNotConservedEndsNoMotion) {
+  const std::string text = R"toml(
+hamiltonian = "y + 1/(z + t)"
+[phase_space]
+time = "t"
+variables = ["x", "y", "z", "w"]
+[phase_space.brackets]
+"x,y" = "1"
+[integrals]
+F = "sign(z + t)"
+[[measure]]
+density = "2 + sign(z + t)"
+[[invariant_relation]]
+name = "R"
+expression = "w - (z + t)/abs(z + t)"
+)toml";
+  EXPECT_FALSE(proof_in_case("integral", text).jumps.empty());
+  EXPECT_FALSE(proof_in_case("measure", text).where.empty());
+  EXPECT_EQ(proof_in_case("invariant_relation", text).verdict, Verdict::undecided);
+}
+
+/// y = x |x|/2 along a motion that is once differentiable.
+TEST(Jumps, QuotientsOfWhatHasKinksJump) {
+  const std::string text = R"toml(
+[phase_space]
+variables = ["x", "y", "z"]
+[equations]
+x = "1"
+y = "abs(x)"
+z = "0"
+[[conditional]]
+name = "F"
+expression = "y/x^2"
+on = ["y - x*abs(x)/2"]
+[[invariant_relation]]
+name = "R"
+expression = "z - y/x^2"
+on = ["y - x*abs(x)/2"]
+)toml";
+  const Proof integral = proof_in_case("conditional", text);
+  EXPECT_EQ(integral.verdict, Verdict::proved) << integral.reason;
+  EXPECT_EQ(integral.jumps, std::vector<std::string>{"x = 0"});
+  EXPECT_EQ(proof_in_case("invariant_relation", text).verdict, Verdict::undecided);
 }
 
 /// (q^2)^a is q^4 where a is 2.
