@@ -85,7 +85,7 @@ unsigned long take_out(Polynomial& p, const Polynomial& f) {
 std::optional<FunctionPieces::Leading> FunctionPieces::leading_at(const Polynomial& p,
                                                                   const Polynomial& f) const {
   std::optional<std::size_t> place;
-  double weight = 0;
+  cln::cl_RA weight = 0;
   Polynomial beside = table_.ring().constant(1);  // under that root
   for (const std::size_t g : table_.generators_in({p})) {
     const Generator& own = table_.generators()[g];
@@ -95,8 +95,7 @@ std::optional<FunctionPieces::Leading> FunctionPieces::leading_at(const Polynomi
     if (times == 0) continue;
     if (place) return std::nullopt;
     place = table_.place(g);
-    weight =
-        static_cast<double>(times) / (own.kind == Kind::root ? static_cast<double>(own.order) : 2);
+    weight = cln::cl_RA(times) / (own.kind == Kind::root ? own.order : 2);
     beside = radicand;
   }
   std::optional<Leading> result;
@@ -105,8 +104,7 @@ std::optional<FunctionPieces::Leading> FunctionPieces::leading_at(const Polynomi
   for (std::size_t power = 0; power < parts.size(); ++power) {
     Polynomial part = parts[power];
     if (part.is_zero()) continue;
-    const double order =
-        static_cast<double>(take_out(part, f)) + weight * static_cast<double>(power);
+    const cln::cl_RA order = take_out(part, f) + weight * static_cast<unsigned long>(power);
     if (result && order > result->order) continue;
     several = result && order == result->order;
     result = Leading{order, power > 0 ? table_.checked_product(part, beside) : part};
@@ -116,8 +114,8 @@ std::optional<FunctionPieces::Leading> FunctionPieces::leading_at(const Polynomi
 
 /// Sines and exponentials of functions that stay finite are bounded, and exponentials of them are
 /// not zero: (q^2)^a, which is exp(a*log(q^2)), is at q = 0.
-std::optional<FunctionPieces::Pole> FunctionPieces::pole_at(const Polynomial& p,
-                                                            const Polynomial& f) const {
+std::optional<Polynomial> FunctionPieces::pole_coefficient(const Polynomial& p,
+                                                           const Polynomial& f) const {
   const auto [top, bottom] = table_.lowest_terms(p);
   for (const std::size_t g : table_.generators_in({top, bottom})) {
     const Generator& own = table_.generators()[g];
@@ -129,7 +127,7 @@ std::optional<FunctionPieces::Pole> FunctionPieces::pole_at(const Polynomial& p,
   Polynomial coefficient = table_.ring().constant(1), divisor = of_bottom->coefficient;
   for (const auto& [factor, exponent] : of_top->coefficient.factors())
     if (factor.is_constant() || take_out(divisor, factor) < exponent) coefficient *= factor;
-  return Pole{of_bottom->order - of_top->order, coefficient};
+  return coefficient;
 }
 
 /// In the variables that `f` uses; other functions than roots count as numbers.

@@ -47,13 +47,9 @@ class FunctionPieces {
   /// Whether `p` is zero wherever the irreducible `f` is, and with it the roots of its multiples.
   bool vanishes_with(const Polynomial& p, const Polynomial& f) const;
 
-  /// A function that is like c*f^(-order), order > 0, where the irreducible `f` vanishes.
-  struct Pole {
-    double order;
-    Polynomial coefficient;  ///< it is zero where c is
-  };
-  /// Nothing where this is not seen.
-  std::optional<Pole> pole_at(const Polynomial& p, const Polynomial& f) const;
+  /// Of a function that is like c*f^(-s), s > 0, where the irreducible `f` vanishes, one that is
+  /// zero where c is. Nothing where this is not seen.
+  std::optional<Polynomial> pole_coefficient(const Polynomial& p, const Polynomial& f) const;
 
   /// Whether `p` is seen to grow without bound towards the origin of the variables of `f`, a form
   /// in them, as 1/(x^2 + y^2) does and x/sqrt(x^2 + y^2) does not: by the lowest degrees of
@@ -86,7 +82,7 @@ class FunctionPieces {
   std::vector<Polynomial> zeros_of(const Polynomial& f) const;
   /// p like c*f^order.
   struct Leading {
-    double order;
+    cln::cl_RA order;
     Polynomial coefficient;
   };
   std::optional<Leading> leading_at(const Polynomial& p, const Polynomial& f) const;

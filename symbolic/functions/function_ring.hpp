@@ -173,9 +173,8 @@ class FunctionRing {
   }
 
   /// See `FunctionPieces`.
-  std::optional<functions::FunctionPieces::Pole> pole_at(const Polynomial& p,
-                                                         const Polynomial& f) const {
-    return pieces_.pole_at(p, f);
+  std::optional<Polynomial> pole_coefficient(const Polynomial& p, const Polynomial& f) const {
+    return pieces_.pole_coefficient(p, f);
   }
   bool grows_towards_zero(const Polynomial& p, const Polynomial& f) const {
     return pieces_.grows_towards_zero(p, f);

@@ -220,6 +220,7 @@ class Prover {
   /// A Groebner basis of the ideal of the level's numerators, with the relations between squares
   /// that the ring knows. Most claims do without, and it takes the longest.
   const std::vector<Polynomial>& basis_of(const Level& level);
+  std::vector<Polynomial> basis_of_zeros(const std::vector<Polynomial>& functions);
   bool may_meet(const Polynomial& a, const Polynomial& b);
   std::vector<NamedExpression> simplified(const NamedExpression& f, int depth);
   /// A function of a level with its numerator.

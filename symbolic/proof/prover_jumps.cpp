@@ -11,19 +11,25 @@ constexpr GroebnerLimits kBasisOfMeeting{200, 60, 2000};
 
 }  // namespace
 
-/// Whether two functions may vanish at one point of the constraints: their ideal, with the
-/// relations that the ring knows, is not seen to contain what vanishes nowhere.
-bool Prover::may_meet(const Polynomial& a, const Polynomial& b) {
+/// A basis of an ideal of functions that are zero at the common real zeros of these on the
+/// constraints, with the relations that the ring knows.
+std::vector<Polynomial> Prover::basis_of_zeros(const std::vector<Polynomial>& functions) {
   std::vector<Polynomial> ideal = square_relations();
-  for (const Polynomial& f : {a, b}) {
+  for (const Polynomial& f : functions) {
     const std::vector<Polynomial> zeros = ring_.real_zeros_at_edge(f);
     ideal.insert(ideal.end(), zeros.begin(), zeros.end());
     ideal.push_back(f);
   }
   const std::vector<Polynomial>& within = level(model_.constraints).numerators;
   ideal.insert(ideal.end(), within.begin(), within.end());
+  return groebner_basis(ideal, kBasisOfMeeting);
+}
+
+/// Whether two functions may vanish at one point of the constraints: their ideal is not seen to
+/// contain what vanishes nowhere.
+bool Prover::may_meet(const Polynomial& a, const Polynomial& b) {
   const std::vector<Polynomial>& identities = square_relations();
-  return std::ranges::none_of(groebner_basis(ideal, kBasisOfMeeting), [&](const Polynomial& f) {
+  return std::ranges::none_of(basis_of_zeros({a, b}), [&](const Polynomial& f) {
     if (std::find(identities.begin(), identities.end(), f) != identities.end()) return false;
     const auto factors = f.factors();
     return std::ranges::all_of(factors, [&](const auto& factor) {
@@ -34,9 +40,9 @@ bool Prover::may_meet(const Polynomial& a, const Polynomial& b) {
 }
 
 bool Prover::has_pole(const Polynomial& p, const Polynomial& f) {
-  const auto pole = ring_.pole_at(p, f);
-  if (!pole) return false;
-  const auto factors = pole->coefficient.factors();
+  const auto coefficient = ring_.pole_coefficient(p, f);
+  if (!coefficient) return false;
+  const auto factors = coefficient->factors();
   return std::ranges::none_of(factors, [&](const auto& factor) {
     return !factor.first.is_constant() && may_meet(factor.first, f);
   });
@@ -45,20 +51,14 @@ bool Prover::has_pole(const Polynomial& p, const Polynomial& f) {
 bool Prover::seems_to_have_pole(const Polynomial& p, const Polynomial& f) {
   const bool meets_few = ring_.real_zeros_at_edge(f).size() > 1;
   if (meets_few && ring_.grows_towards_zero(p, f)) return true;
-  const auto pole = ring_.pole_at(p, f);
-  return pole && is_nonzero_somewhere(pole->coefficient, f);
+  const auto coefficient = ring_.pole_coefficient(p, f);
+  return coefficient && is_nonzero_somewhere(*coefficient, f);
 }
 
 /// Whether `p` is not zero all over f = 0: then a power of it would be in the ideal of f, as that
-/// of u is where f is u^2.
+/// of u is where f is u^2. Of what is long no power is looked at.
 bool Prover::is_nonzero_somewhere(const Polynomial& p, const Polynomial& f) {
-  std::vector<Polynomial> ideal = square_relations();
-  const std::vector<Polynomial> zeros = ring_.real_zeros_at_edge(f);
-  ideal.insert(ideal.end(), zeros.begin(), zeros.end());
-  ideal.push_back(f);
-  const std::vector<Polynomial>& within = level(model_.constraints).numerators;
-  ideal.insert(ideal.end(), within.begin(), within.end());
-  const std::vector<Polynomial> basis = groebner_basis(ideal, kBasisOfMeeting);
+  const std::vector<Polynomial> basis = basis_of_zeros({f});
   std::vector<Polynomial> quotients;
   Polynomial power = p;
   constexpr int kSquarings = 3;
