@@ -81,5 +81,27 @@ TEST(DriftCheck, AnIntegralThatIsLostOnTheWayIsLookedAtAtTheEnd) {
   EXPECT_EQ(drifted.status, Status::drift_exceeded);
 }
 
+/// Beside x^2 + y^2 = 1 the root has no value on one side, which is no change.
+TEST(DriftCheck, AnIntegralAtTheEdgeOfItsDomainIsLookedAt) {
+  const Model model = model_of(R"toml(
+title = "rotation"
+[phase_space]
+variables = ["x", "y"]
+[equations]
+x = "y"
+y = "-x"
+[integrals]
+F = "5 + sqrt(x^2 + y^2 - 1)"
+[[scene]]
+name = "default"
+initial = { x = "1", y = "0" }
+duration = "10"
+)toml");
+  const PreparedScene run = prepare(model, model.scene("default"));
+  Trajectory drifted = ended(run, {{.initial = 5, .final = 7, .drift = 0.4, .allowed = 1e-9}});
+  EXPECT_TRUE(check_drift(model, model.scene("default"), run, drifted).which.empty());
+  EXPECT_EQ(drifted.status, Status::drift_exceeded);
+}
+
 }  // namespace
 }  // namespace casimir::test
