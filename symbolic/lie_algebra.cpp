@@ -6,7 +6,6 @@
 #include <array>
 #include <cctype>
 #include <map>
-#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -119,7 +118,36 @@ constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
     {"sl2r", "sl(2)"}, {"heisenberg", "h(3)"}, {"heis", "h(3)"},     {"so3xr3", "so(3)+R3"},
 };
 
-int positive(const std::string& text) { return text.size() > 3 ? 1000 : std::stoi(text); }
+/// Takes a number without a sign from the front; empty where there is none. What has more than
+/// three digits is more than any algebra has.
+std::optional<int> take_number(std::string_view& text) {
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  if (digits == 0) return std::nullopt;
+  const std::string number(text.substr(0, digits));
+  text.remove_prefix(digits);
+  return digits > 3 ? 1000 : std::stoi(number);
+}
+
+bool take(std::string_view& text, std::string_view prefix) {
+  if (!text.starts_with(prefix)) return false;
+  text.remove_prefix(prefix.size());
+  return true;
+}
+
+/// k of so(3)+k*R3, which may be written so(3)+kR^3 and, of 1, left out.
+std::optional<int> vectors_of(std::string_view key) {
+  if (!take(key, "so(3)+")) return std::nullopt;
+  const std::optional<int> count = take_number(key);
+  if (count) take(key, "*");
+  return key == "R3" || key == "R^3" ? count.value_or(1) : std::optional<int>{};
+}
+
+/// n of so(n) or e(n).
+std::optional<int> dimension_of(std::string_view key, std::string_view family) {
+  if (!take(key, family) || !take(key, "(")) return std::nullopt;
+  const std::optional<int> n = take_number(key);
+  return key == ")" ? n : std::nullopt;
+}
 
 }  // namespace
 
@@ -136,17 +164,12 @@ std::optional<LieAlgebra> find_lie_algebra(const std::string& name) {
     return LieAlgebra{key, "h e f", 3, {{0, 1, 1, -2}, {0, 2, 2, 2}, {1, 2, 0, -1}}};
   if (key == "h(3)") return LieAlgebra{key, "x y z", 3, {{0, 1, 2, -1}}};
 
-  std::smatch match;
-  static const std::regex kSum(R"(so\(3\)\+(?:(\d+)\*?)?R\^?3)");
-  static const std::regex kOrthogonal(R"((so|e)\((\d+)\))");
   if (key.size() > 40) return std::nullopt;
-  if (std::regex_match(key, match, kSum)) {
-    const int count = match[1].length() == 0 ? 1 : positive(match[1].str());
-    if (count >= 1 && count <= kMaxVectors) return rotations(key, count, 0);
-  } else if (std::regex_match(key, match, kOrthogonal)) {
-    const int n = positive(match[2].str());
-    if (n >= 3 && n <= kMaxOrthogonal) return orthogonal(key, n, match[1].str() == "e");
-  }
+  if (const auto count = vectors_of(key); count && *count >= 1 && *count <= kMaxVectors)
+    return rotations(key, *count, 0);
+  for (const char* family : {"so", "e"})
+    if (const auto n = dimension_of(key, family); n && *n >= 3 && *n <= kMaxOrthogonal)
+      return orthogonal(key, *n, *family == 'e');
   return std::nullopt;
 }
 

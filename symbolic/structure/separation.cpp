@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
 
 #include "symbolic/search/conditions/real_ideal.hpp"
 #include "symbolic/search/finder.hpp"
@@ -121,6 +121,17 @@ std::string SeparationSearch::free_name(std::initializer_list<const char*> wante
   }
 }
 
+/// Where I stands as a word of its own; 0 where it does not.
+std::size_t place_of_imaginary_unit(const std::string& text) {
+  const auto is_of_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (std::size_t i = text.find('I'); i != std::string::npos; i = text.find('I', i + 1))
+    if ((i == 0 || !is_of_name(text[i - 1])) && (i + 1 == text.size() || !is_of_name(text[i + 1])))
+      return i;
+  return 0;
+}
+
 /// The roots may be complex, the coefficients are real functions: points are certified for these.
 void refuse_complex(const GiNaC::ex& given, const Text& text) {
   const auto is_complex = [](const GiNaC::ex& part) {
@@ -128,11 +139,7 @@ void refuse_complex(const GiNaC::ex& given, const Text& text) {
            !GiNaC::ex_to<GiNaC::numeric>(part).is_real();
   };
   if (std::none_of(given.preorder_begin(), given.preorder_end(), is_complex)) return;
-  const std::regex unit("\\bI\\b");
-  std::smatch found;
-  const bool shown = std::regex_search(text.value, found, unit);
-  throw text.error("the polynomial has to be real, without I",
-                   shown ? static_cast<std::size_t>(found.position()) : 0);
+  throw text.error("the polynomial has to be real, without I", place_of_imaginary_unit(text.value));
 }
 
 /// What is divided by may vanish identically in a way that is hidden, as sin(x)^2 + cos(x)^2 - 1.

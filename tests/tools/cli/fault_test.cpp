@@ -45,8 +45,8 @@ TEST(Fault, StandardOutputThatIsFullIsSaid) {
   const Folder folder;
   for (const char* command :
        {"list", "list --json", "show kovalevskaya", "show kovalevskaya --format latex", "--help",
-        "verify euler", "verify --all", "integrate euler --json", "integrate euler", "--version",
-        "generate euler -o e.hpp", "search euler --degree 2", "exponents euler"}) {
+        "verify euler", "verify --all --tag free-body", "integrate euler --json", "integrate euler",
+        "--version", "generate euler -o e.hpp", "search euler --degree 2", "exponents euler"}) {
     const Outcome outcome = shell(folder, std::string("\"$C\" ") + command + " > /dev/full");
     EXPECT_EQ(outcome.status, 4) << command;
     EXPECT_EQ(outcome.err,
@@ -109,7 +109,7 @@ TEST(Fault, AFileWithoutRoomKeepsTheOldOne) {
             "bench euler --method taylor,dop853 --tolerances "
             "1e-3,1e-4,1e-5,1e-6,1e-7,1e-8,1e-9,1e-10,1e-11,1e-12 "
             "--budget 0.01 --output f.csv"},
-           {"f.md", "survey --output f.md"},
+           {"f.md", "survey --tag free-body --output f.md"},
            {"f.toml", "new f --algebra 'so(5)' --force"}}) {
     SCOPED_TRACE(command);
     folder.write(name, old);
