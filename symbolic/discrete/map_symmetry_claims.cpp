@@ -67,6 +67,18 @@ void judge_invertible(Prover& prover, Proof& proof, const std::string& name,
                           : fmt::format("'{}' is not shown to be invertible", name);
 }
 
+constexpr const char* kLocally = "locally: near almost all points it is invertible";
+
+/// An affine map that is invertible somewhere is so everywhere; x -> |x| commutes with x -> x + 1.
+bool is_affine(const std::vector<ex>& images, const std::vector<GiNaC::symbol>& variables) {
+  return std::ranges::all_of(images, [&](const ex& image) {
+    return std::ranges::all_of(variables, [&](const GiNaC::symbol& x) {
+      const ex slope = image.diff(x).expand();
+      return std::ranges::none_of(variables, [&](const GiNaC::symbol& y) { return slope.has(y); });
+    });
+  });
+}
+
 /// The gradients of constraints at f(x), for those at x.
 std::function<PolynomialRows(const PolynomialRows&)> slopes_at(Prover& prover, GiNaC::exmap image) {
   return [&prover, image = std::move(image)](const PolynomialRows& slopes) {
@@ -158,6 +170,8 @@ Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
                 images.insert(images.end(), symmetry.parameters.begin(), symmetry.parameters.end());
                 std::vector<GiNaC::symbol> by = map.base.symbols();
                 judge_invertible(prover, proof, symmetry.name, images, by);
+                if (proof.verdict == Verdict::proved && !is_affine(images, by))
+                  proof.evidence = kLocally;
               }};
   claim.expressions = domain_of(map, map.base.constraints);
   for (const NamedExpression& c : map.base.constraints)
@@ -209,8 +223,6 @@ std::string why_not_conjugated(const Model& model) {
       if (assumption.difference.has(x)) return "whether the map stays in the domain is not known";
   return {};
 }
-
-constexpr const char* kLocally = "locally: near almost all points it is invertible";
 
 /// Hypothesis of a conjugacy phi: it is invertible where the map leads, too. Else a map into points
 /// where phi is singular would be conjugate to every map of the one value that phi has there. Shown

@@ -113,6 +113,23 @@ TEST(MapSymmetryClaims, ASymmetryIsInvertible) {
   EXPECT_THROW(verdict("{ e = \"x\" }"), CaseError);
 }
 
+/// y -> |y| commutes with a shift of x, and is not one to one.
+TEST(MapSymmetryClaims, ASymmetryThatIsNotAffineIsLocal) {
+  const auto evidence = [](const std::string& y) {
+    const Proof proof =
+        proof_of(map_of(kPhaseSpaceOfPlane +
+                        "[map]\nx = \"x + 1\"\ny = \"y\"\n[[symmetry]]\nname = \"S\"\n"
+                        "expressions = { y = \"" +
+                        y + "\" }\n"),
+                 ClaimKind::map);
+    EXPECT_EQ(proof.verdict, Verdict::proved) << y;
+    return proof.evidence;
+  };
+  for (const char* y : {"abs(y)", "y^2", "y + sin(y)/2"})
+    EXPECT_NE(evidence(y).find("locally"), std::string::npos) << y;
+  EXPECT_EQ(evidence("-2*y + 1").find("locally"), std::string::npos);
+}
+
 TEST(MapSymmetryClaims, ASymmetryKeepsConstraintsAndDomain) {
   // S and R take the line z = 0 to one point.
   const MapModel constrained = map_of(R"toml(
