@@ -7,6 +7,31 @@
 
 namespace casimir::functions {
 
+namespace {
+
+/// Whether a function of this kind may stay bounded, itself or in a quotient, where its base
+/// becomes infinite: atan(1/x) jumps by half a turn where x passes zero, 1/(1 + exp(1/x)) by 1,
+/// sin(1/x) has no limit, and of an arbitrary function of 1/x nothing is known. A power or a
+/// logarithm becomes infinite, too.
+bool is_bounded_at_poles(const Generator& generator) {
+  switch (generator.kind) {
+    case Kind::sine:
+    case Kind::cosine:
+    case Kind::exponential:
+      return true;
+    case Kind::function:
+      return generator.order != kLogarithm && generator.order != kLogOfAbsolute;
+    case Kind::root:
+    case Kind::absolute:
+    case Kind::inverse:
+    case Kind::imaginary:
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 /// Each is factored once.
 const std::vector<Polynomial>& FunctionPieces::factors_of_radicand(std::size_t g) const {
   const auto [known, fresh] = radicands_.try_emplace(g);
@@ -38,9 +63,12 @@ std::vector<Polynomial> FunctionPieces::radicand_factors(const Polynomial& p, bo
                      (generator.order == kArcSine || generator.order == kArcCosine);
     // By the relations: with v = sqrt(1 - y) it is y, of which the motion may have a root as well.
     if (arc) add(table_.numerator(one - generator.base * generator.base));
-    if (!cuts || generator.kind != Kind::function) continue;
-    // atan(1/x) jumps by half a turn where x passes zero.
-    if (generator.order == kArcTangent) add(table_.fraction(generator.base).second);
+    if (!cuts) continue;
+    if (is_bounded_at_poles(generator)) {
+      add(table_.fraction(generator.base).second);
+      for (const Polynomial& end : ends_of_powers(generator.base)) add(end);
+    }
+    if (generator.kind != Kind::function) continue;
     // atan2 jumps on its cut, y = 0 and x < 0; where y is zero all over, at x = 0; and at poles of
     // both, atan2(1, 1/x) as atan(x) does not.
     if (generator.order == kArcTangentOfTwo) {
@@ -48,9 +76,8 @@ std::vector<Polynomial> FunctionPieces::radicand_factors(const Polynomial& p, bo
       const Polynomial& x = generator.arguments[1];
       if (signs_.known_sign(x) <= 0 || !signs_.known_nonzero(x))
         add(table_.numerator(y).is_zero() ? x : y);
-      add(table_.fraction(y).second);
-      add(table_.fraction(x).second);
     }
+    for (const Polynomial& argument : generator.arguments) add(table_.fraction(argument).second);
   }
   return result;
 }
@@ -198,6 +225,51 @@ std::vector<Polynomial> FunctionPieces::zeros_of(const Polynomial& f) const {
   return {f};
 }
 
+/// Where powers x^a, which are exp(a*log(x)), become zero or infinite.
+std::vector<Polynomial> FunctionPieces::ends_of_powers(const Polynomial& p) const {
+  std::vector<Polynomial> result;
+  if (p.is_zero()) return result;
+  for (const std::size_t g : table_.generators_in({p})) {
+    const Generator& own = table_.generators()[g];
+    if (own.kind != Kind::exponential) continue;
+    const std::vector<Polynomial> ends = ends_of_logarithms(own.base);
+    result.insert(result.end(), ends.begin(), ends.end());
+  }
+  return result;
+}
+
+std::vector<Polynomial> FunctionPieces::ends_of_logarithms(const Polynomial& p) const {
+  std::vector<Polynomial> result;
+  for (const std::size_t g : table_.generators_in({p})) {
+    const Generator& own = table_.generators()[g];
+    if (own.kind != Kind::function || (own.order != kLogarithm && own.order != kLogOfAbsolute))
+      continue;
+    const auto [top, bottom] = table_.fraction(own.base);
+    result.push_back(top);
+    result.push_back(bottom);
+  }
+  return result;
+}
+
+std::vector<Polynomial> FunctionPieces::pole_factors(const Polynomial& p) const {
+  std::vector<Polynomial> result;
+  const auto add = [&](const Polynomial& bottom) {
+    for (const auto& [f, exponent] : bottom.factors())
+      for (const Polynomial& zero : zeros_of(f))
+        if (!zero.is_constant() && std::find(result.begin(), result.end(), zero) == result.end())
+          result.push_back(zero);
+  };
+  add(table_.lowest_terms(p).second);
+  for (const Polynomial& end : ends_of_logarithms(p)) add(end);
+  for (const std::size_t g : table_.generators_in({p})) {
+    const Generator& generator = table_.generators()[g];
+    if (generator.kind != Kind::inverse && !generator.base.is_zero())
+      add(table_.fraction(generator.base).second);
+    for (const Polynomial& argument : generator.arguments) add(table_.fraction(argument).second);
+  }
+  return result;
+}
+
 std::vector<JumpPlace> FunctionPieces::jump_factors(const Polynomial& p, bool cuts,
                                                     const std::vector<Polynomial>& more) const {
   std::vector<JumpPlace> result;
@@ -223,15 +295,24 @@ std::vector<JumpPlace> FunctionPieces::jump_factors(const Polynomial& p, bool cu
     }
   };
   divided_by(table_.lowest_terms(p).second, false);
+  // y*log|x| is 0 times infinity where the motion has a kink.
+  for (const Polynomial& end : ends_of_logarithms(p))
+    for (const auto& [f, exponent] : end.factors())
+      for (const Polynomial& zero : zeros_of(f))
+        if (std::find(more.begin(), more.end(), zero) != more.end()) add(zero, std::nullopt);
   for (const std::size_t g : table_.generators_in({p})) {
     const Generator& generator = table_.generators()[g];
     const bool function = generator.kind == Kind::function;
     const bool angle = function && generator.order == kArcTangentOfTwo;
     if (generator.kind != Kind::inverse && !generator.base.is_zero())
-      divided_by(table_.fraction(generator.base).second,
-                 function && generator.order == kArcTangent);  // atan(1/x)
+      divided_by(table_.fraction(generator.base).second, is_bounded_at_poles(generator));
     for (const Polynomial& argument : generator.arguments)
-      divided_by(table_.fraction(argument).second, angle || (cuts && function));
+      divided_by(table_.fraction(argument).second, function);
+    if (is_bounded_at_poles(generator)) {
+      for (const Polynomial& end : ends_of_powers(generator.base)) divided_by(end, true);
+      for (const Polynomial& argument : generator.arguments)
+        for (const Polynomial& end : ends_of_powers(argument)) divided_by(end, true);
+    }
     if (!cuts || !angle) continue;
     const Polynomial& y = generator.arguments[0];
     const Polynomial& x = generator.arguments[1];

@@ -26,6 +26,10 @@ class FunctionPieces {
   /// \param cuts  with what has to vanish for atan2 to jump, which does not concern derivatives
   std::vector<Polynomial> radicand_factors(const Polynomial& p, bool cuts = false) const;
 
+  /// The irreducible factors of what `p` divides by, and what it contains, and of what logarithms
+  /// are taken of: where none of them vanishes, it is bounded.
+  std::vector<Polynomial> pole_factors(const Polynomial& p) const;
+
   /// Places such that `p`, where it has values, is continuous at all others: where it divides by
   /// zero, inside of roots, absolute values and inverse functions or beside them, and what stands
   /// under one of its roots is zero, too, as of |s|/s; and the cuts of atan2. Of a quotient of
@@ -78,6 +82,9 @@ class FunctionPieces {
  private:
   /// Where factors under roots in the list are zero and two of its members are, or may be.
   std::vector<JumpPlace> common_zeros(const std::vector<Polynomial>& list) const;
+  /// Where logarithms in `p` become infinite.
+  std::vector<Polynomial> ends_of_logarithms(const Polynomial& p) const;
+  std::vector<Polynomial> ends_of_powers(const Polynomial& p) const;
   const std::vector<Polynomial>& factors_of_radicand(std::size_t g) const;
   std::vector<Polynomial> zeros_of(const Polynomial& f) const;
   /// p like c*f^order.

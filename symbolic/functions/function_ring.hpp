@@ -158,6 +158,11 @@ class FunctionRing {
     return pieces_.radicand_factors(p, cuts);
   }
 
+  /// See `FunctionPieces`.
+  std::vector<Polynomial> pole_factors(const Polynomial& p) const {
+    return pieces_.pole_factors(p);
+  }
+
   /// Where `p`, having values on both sides, may jump.
   /// \param cuts  as of `FunctionPieces`
   std::vector<functions::JumpPlace> jump_factors(const Polynomial& p, bool cuts,

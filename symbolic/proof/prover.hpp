@@ -141,6 +141,11 @@ class Prover {
   ///               what they keep the signs of are Casimir functions
   std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts, bool every = false);
 
+  /// Whether two functions may vanish at one point of the constraints, as far as is seen.
+  bool may_meet(const Polynomial& a, const Polynomial& b);
+
+  /// Whether `p` is not zero all over the zeros of `f` on the constraints, as far as is seen.
+  bool is_nonzero_somewhere(const Polynomial& p, const Polynomial& f);
   /// Whether `p` is seen to be infinite wherever the irreducible `f` is zero, for all values of the
   /// parameters: |x|/x^2 is at x = 0, and |u|^3/u^3 is not, nor is k/x unless k is not zero.
   bool has_pole(const Polynomial& p, const Polynomial& f);
@@ -221,7 +226,6 @@ class Prover {
   /// that the ring knows. Most claims do without, and it takes the longest.
   const std::vector<Polynomial>& basis_of(const Level& level);
   std::vector<Polynomial> basis_of_zeros(const std::vector<Polynomial>& functions);
-  bool may_meet(const Polynomial& a, const Polynomial& b);
   std::vector<NamedExpression> simplified(const NamedExpression& f, int depth);
   /// A function of a level with its numerator.
   struct LevelFunction {
@@ -255,10 +259,18 @@ class Prover {
   bool vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which = Divisors::all);
   const std::vector<Polynomial>& explicit_divisors(Divisors which);
   bool ends_motions(const Polynomial& f);
-  std::vector<Polynomial> kinks_of_motion() const;
+  bool ends_motions_at_poles(const Polynomial& f);
+  /// Whether two functions vanish together only where a factor of this kind does.
+  bool meet_only_where(const Polynomial& a, const Polynomial& b,
+                       const std::function<bool(const Polynomial&)>& is_such);
+  bool ends_almost_all_motions(const Polynomial& f);
+  std::vector<Polynomial> kinks_of(const std::vector<Polynomial>& rates,
+                                   const std::function<bool(const Polynomial&)>& is_passed_pole);
+  std::vector<Polynomial> kinks_of_motion(bool almost);
+  /// Of the flows of all Hamiltonians.
+  std::vector<Polynomial> kinks_of_flows();
   /// Whether it depends on variables, or on the time.
   bool varies(const Polynomial& p) const;
-  bool is_nonzero_somewhere(const Polynomial& p, const Polynomial& f);
   /// Whether an irreducible function vanishes nowhere, or is divided by; kept for this claim.
   bool seems_to_vanish(const Polynomial& f, Divisors which);
   bool is_kept_from_zero(const Polynomial& f, Divisors which);

@@ -25,18 +25,22 @@ std::vector<Polynomial> Prover::basis_of_zeros(const std::vector<Polynomial>& fu
   return groebner_basis(ideal, kBasisOfMeeting);
 }
 
-/// Whether two functions may vanish at one point of the constraints: their ideal is not seen to
-/// contain what vanishes nowhere.
-bool Prover::may_meet(const Polynomial& a, const Polynomial& b) {
+/// Their ideal is seen to contain a product of what vanishes nowhere and of such factors.
+bool Prover::meet_only_where(const Polynomial& a, const Polynomial& b,
+                             const std::function<bool(const Polynomial&)>& is_such) {
   const std::vector<Polynomial>& identities = square_relations();
-  return std::ranges::none_of(basis_of_zeros({a, b}), [&](const Polynomial& f) {
+  return std::ranges::any_of(basis_of_zeros({a, b}), [&](const Polynomial& f) {
     if (std::find(identities.begin(), identities.end(), f) != identities.end()) return false;
     const auto factors = f.factors();
     return std::ranges::all_of(factors, [&](const auto& factor) {
-      return factor.first.is_constant() ? !factor.first.is_zero()
-                                        : ring_.is_assumed_nonzero(factor.first);
+      if (factor.first.is_constant()) return !factor.first.is_zero();
+      return ring_.is_assumed_nonzero(factor.first) || is_such(factor.first);
     });
   });
+}
+
+bool Prover::may_meet(const Polynomial& a, const Polynomial& b) {
+  return !meet_only_where(a, b, [](const Polynomial&) { return false; });
 }
 
 bool Prover::has_pole(const Polynomial& p, const Polynomial& f) {
@@ -79,20 +83,76 @@ bool Prover::ends_motions(const Polynomial& f) {
   return model_.hamiltonian && !model_.time && has_pole(convert(*model_.hamiltonian), f);
 }
 
+/// The same for each value of the parameters where the equations have a pole at f: where g is zero,
+/// p^2/2 + g/q^2 has none. Where the coefficient of the pole is zero with f, so is a function of
+/// the parameters, and where this one is, the Hamiltonian has no pole at f; the bracket has none.
+bool Prover::ends_motions_at_poles(const Polynomial& f) {
+  if (!model_.hamiltonian || model_.time || !model_.poisson) return false;
+  for (std::size_t i = 0; i < dimension(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::ranges::count(ring_.pole_factors(bracket_entry(i, j)), f) > 0) return false;
+  const Polynomial energy = convert(*model_.hamiltonian);
+  const auto coefficient = ring_.pole_coefficient(energy, f);
+  if (!coefficient) return false;
+  const auto [top, bottom] = ring_.lowest_terms(energy);
+  Polynomial rest = bottom, quotient(ring_.ring()), pole = ring_.ring().constant(1);
+  for (; rest.divide(f, &quotient); rest = quotient) pole = pole * f;
+  const auto has_none_where_zero = [&](const Polynomial& factor) {
+    if (varies(factor) || pole.is_constant()) return false;
+    std::vector<Polynomial> unused(1, pole);
+    const Polynomial left = top.remainder({factor}, &unused);
+    return left.is_zero() || left.divide(pole, &quotient);
+  };
+  return meet_only_where(*coefficient, f, has_none_where_zero);
+}
+
+/// The conserved Hamiltonian is infinite at almost all points where f is zero: its denominator is
+/// zero at all of them, under whatever name, and its numerator, a function without poles, is not.
+bool Prover::ends_almost_all_motions(const Polynomial& f) {
+  if (!model_.hamiltonian || model_.time) return false;
+  const Polynomial& energy = convert(*model_.hamiltonian);
+  const auto [top, bottom] = ring_.lowest_terms(energy);
+  return ring_.pole_factors(top).empty() && !bottom.is_constant() &&
+         !is_nonzero_somewhere(bottom, f) && is_nonzero_somewhere(top, f);
+}
+
 bool Prover::varies(const Polynomial& p) const {
   return ring_.depends_on_first(p, dimension()) ||
          (model_.time && ring_.depends_on(p, dimension() + model_.parameters.size()));
 }
 
-/// What stands under roots in the equations: a motion is analytic where none of it is zero.
-std::vector<Polynomial> Prover::kinks_of_motion() const {
+/// What stands under roots in the rates of motions, or is divided by there, if these may pass it: a
+/// motion is analytic where none of it is zero. Along x' = 1, y' = 2*y/x^3 each side of x = 0 has
+/// its own y*exp(1/x^2).
+std::vector<Polynomial> Prover::kinks_of(
+    const std::vector<Polynomial>& rates,
+    const std::function<bool(const Polynomial&)>& is_passed_pole) {
   std::vector<Polynomial> kinks;
-  if (!has_motion()) return kinks;
-  for (const Polynomial& rate : field())
-    for (Polynomial& f : ring_.radicand_factors(rate))
-      if (varies(f) && std::find(kinks.begin(), kinks.end(), f) == kinks.end())
-        kinks.push_back(std::move(f));
+  const auto add = [&](const Polynomial& f) {
+    if (varies(f) && std::find(kinks.begin(), kinks.end(), f) == kinks.end()) kinks.push_back(f);
+  };
+  for (const Polynomial& rate : rates) {
+    for (const Polynomial& f : ring_.radicand_factors(rate)) add(f);
+    for (const Polynomial& f : ring_.pole_factors(rate))
+      if (!ring_.is_assumed_nonzero(f) && is_passed_pole(f)) add(f);
+  }
   return kinks;
+}
+
+/// \param almost  without the poles that all motions end at but for those of a smaller set
+std::vector<Polynomial> Prover::kinks_of_motion(bool almost) {
+  if (!has_motion()) return {};
+  return kinks_of(field(), [&](const Polynomial& f) {
+    return !keeps_sign(f, {}) && !(almost && ends_almost_all_motions(f)) &&
+           !ends_motions_at_poles(f);
+  });
+}
+
+std::vector<Polynomial> Prover::kinks_of_flows() {
+  std::vector<Polynomial> entries;
+  for (std::size_t i = 0; model_.poisson && i < dimension(); ++i)
+    for (std::size_t j = 0; j < i; ++j) entries.push_back(bracket_entry(i, j));
+  return kinks_of(entries, [](const Polynomial&) { return true; });
 }
 
 /// What a motion passes of the places where a function may jump.
@@ -150,7 +210,8 @@ class PassedJumps {
 std::vector<Polynomial> Prover::passed_jumps(const Polynomial& function, bool cuts, bool every) {
   if (ring_.is_polynomial()) return {};
   PassedJumps jumps(*this, every);
-  jumps.add(ring_.jump_factors(function, cuts, kinks_of_motion()), false);
+  jumps.add(ring_.jump_factors(function, cuts, every ? kinks_of_flows() : kinks_of_motion(true)),
+            false);
   jumps.add(ring_.split_jump_factors(function), true);
   return std::move(jumps).passed();
 }

@@ -9,9 +9,12 @@ namespace casimir {
 
 bool Prover::keeps_sign(const Polynomial& u, const Level& level) {
   const auto [top, bottom] = ring_.lowest_terms(rate(u));
+  const auto has_no_zero = [&](const Polynomial& f) {
+    return vanishes_nowhere_on(f, level, Divisors::of_motion);
+  };
   Polynomial cofactor(ring_.ring());
-  return (top.is_zero() || top.divide(u, &cofactor)) &&
-         vanishes_nowhere_on(bottom, level, Divisors::of_motion);
+  return (top.is_zero() || top.divide(u, &cofactor)) && has_no_zero(bottom) &&
+         std::ranges::all_of(ring_.pole_factors(cofactor), has_no_zero);
 }
 
 void Prover::say_where_differentiable(Proof& proof, const std::vector<GiNaC::ex>& functions) {
@@ -34,7 +37,7 @@ bool Prover::is_smooth_on(Proof& proof, const Level& level,
                           const std::vector<NamedExpression>& list, Smooth smooth) {
   if (ring_.is_polynomial()) return true;
   const bool continuous = smooth == Smooth::without_jumps;
-  const auto kinks = continuous ? kinks_of_motion() : std::vector<Polynomial>{};
+  const auto kinks = continuous ? kinks_of_motion(false) : std::vector<Polynomial>{};
   const bool analytic = std::ranges::all_of(kinks, [&](const auto& kink) {
     return vanishes_nowhere_on(kink, level, Divisors::of_motion);
   });
@@ -43,12 +46,16 @@ bool Prover::is_smooth_on(Proof& proof, const Level& level,
     // Along analytic motions a quotient that is constant has no pole; y/x^2 has one value along
     // (t, t^2) and another along (t, -t^2).
     const Polynomial bottom = ring_.lowest_terms(value).second;
-    if (!analytic && !vanishes_nowhere_on(bottom, level, Divisors::of_motion)) {
+    const auto poles = analytic ? std::vector<Polynomial>{} : ring_.pole_factors(value);
+    const auto pole = std::ranges::find_if_not(poles, [&](const Polynomial& own) {
+      return vanishes_nowhere_on(own, level, Divisors::of_motion);
+    });
+    if (pole != poles.end()) {
       proof.verdict = Verdict::undecided;
       proof.evidence.clear();
       proof.reason =
-          fmt::format("{} is divided by {}, which may vanish where a motion that has kinks passes",
-                      f.name, ring_.text(bottom));
+          fmt::format("{} need not be finite where {} = 0, where a motion that has kinks may pass",
+                      f.name, ring_.text(*pole));
       return false;
     }
     for (const Polynomial& radicand : ring_.radicand_factors(value, continuous)) {
