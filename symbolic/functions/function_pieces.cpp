@@ -259,15 +259,27 @@ std::vector<Polynomial> FunctionPieces::pole_factors(const Polynomial& p) const 
         if (!zero.is_constant() && std::find(result.begin(), result.end(), zero) == result.end())
           result.push_back(zero);
   };
-  add(table_.lowest_terms(p).second);
   for (const Polynomial& end : ends_of_logarithms(p)) add(end);
   for (const std::size_t g : table_.generators_in({p})) {
     const Generator& generator = table_.generators()[g];
-    if (generator.kind != Kind::inverse && !generator.base.is_zero())
-      add(table_.fraction(generator.base).second);
+    if (generator.kind == Kind::inverse) add(generator.base);
     for (const Polynomial& argument : generator.arguments) add(table_.fraction(argument).second);
   }
   return result;
+}
+
+std::optional<Polynomial> FunctionPieces::leading_divided_by(const Polynomial& p,
+                                                             const Polynomial& f) const {
+  std::optional<std::size_t> place;
+  for (const std::size_t g : table_.generators_in({p})) {
+    const Generator& own = table_.generators()[g];
+    Polynomial quotient(table_.ring());
+    if (own.kind != Kind::inverse || !own.base.divide(f, &quotient)) continue;
+    if (place) return std::nullopt;
+    place = table_.place(g);
+  }
+  if (!place || !p.uses(*place)) return std::nullopt;
+  return p.coefficients(*place).back();
 }
 
 std::vector<JumpPlace> FunctionPieces::jump_factors(const Polynomial& p, bool cuts,

@@ -26,9 +26,13 @@ class FunctionPieces {
   /// \param cuts  with what has to vanish for atan2 to jump, which does not concern derivatives
   std::vector<Polynomial> radicand_factors(const Polynomial& p, bool cuts = false) const;
 
-  /// The irreducible factors of what `p` divides by, and what it contains, and of what logarithms
-  /// are taken of: where none of them vanishes, it is bounded.
+  /// The irreducible factors of what `p` divides by as it is written, and what it contains, and of
+  /// what logarithms are taken of: where none of them vanishes, it is bounded.
   std::vector<Polynomial> pole_factors(const Polynomial& p) const;
+
+  /// Of p = c/d^k + .., where d is the only thing with the factor `f` that it divides by, and k the
+  /// highest power: c. Nothing where there are several such.
+  std::optional<Polynomial> leading_divided_by(const Polynomial& p, const Polynomial& f) const;
 
   /// Places such that `p`, where it has values, is continuous at all others: where it divides by
   /// zero, inside of roots, absolute values and inverse functions or beside them, and what stands

@@ -163,6 +163,11 @@ class FunctionRing {
     return pieces_.pole_factors(p);
   }
 
+  /// See `FunctionPieces`.
+  std::optional<Polynomial> leading_divided_by(const Polynomial& p, const Polynomial& f) const {
+    return pieces_.leading_divided_by(p, f);
+  }
+
   /// Where `p`, having values on both sides, may jump.
   /// \param cuts  as of `FunctionPieces`
   std::vector<functions::JumpPlace> jump_factors(const Polynomial& p, bool cuts,

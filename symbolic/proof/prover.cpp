@@ -99,6 +99,8 @@ void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {
   subject_ = subject;
   divisors_.reset();
   motion_divisors_.reset();
+  kinks_.reset();
+  kinks_almost_.reset();
   claim_inhabited_.reset();
   claim_on_constraints_.reset();
   holds_on_constraints_ = false;

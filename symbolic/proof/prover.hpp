@@ -263,10 +263,11 @@ class Prover {
   /// Whether two functions vanish together only where a factor of this kind does.
   bool meet_only_where(const Polynomial& a, const Polynomial& b,
                        const std::function<bool(const Polynomial&)>& is_such);
+  bool is_moved_by_bracket(const Polynomial& f);
   bool ends_almost_all_motions(const Polynomial& f);
   std::vector<Polynomial> kinks_of(const std::vector<Polynomial>& rates,
                                    const std::function<bool(const Polynomial&)>& is_passed_pole);
-  std::vector<Polynomial> kinks_of_motion(bool almost);
+  const std::vector<Polynomial>& kinks_of_motion(bool almost);
   /// Of the flows of all Hamiltonians.
   std::vector<Polynomial> kinks_of_flows();
   /// Whether it depends on variables, or on the time.
@@ -306,7 +307,7 @@ class Prover {
   std::optional<GiNaC::symbol> spectral_;
   RealPoints real_points_;
   std::vector<GiNaC::ex> claim_, domain_, all_;
-  std::optional<std::vector<Polynomial>> divisors_, motion_divisors_;
+  std::optional<std::vector<Polynomial>> divisors_, motion_divisors_, kinks_, kinks_almost_;
   Subject subject_;
   struct KeptFromZero {
     Divisors which;

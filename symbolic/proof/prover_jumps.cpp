@@ -9,6 +9,9 @@ namespace {
 
 constexpr GroebnerLimits kBasisOfMeeting{200, 60, 2000};
 
+/// Of what is so long no bases are looked for.
+bool is_long(const Polynomial& p) { return p.terms() > 60; }
+
 }  // namespace
 
 /// A basis of an ideal of functions that are zero at the common real zeros of these on the
@@ -66,11 +69,10 @@ bool Prover::is_nonzero_somewhere(const Polynomial& p, const Polynomial& f) {
   std::vector<Polynomial> quotients;
   Polynomial power = p;
   constexpr int kSquarings = 3;
-  constexpr std::size_t kMostTerms = 60;
   for (int i = 0; i <= kSquarings; ++i) {
     power = power.remainder(basis, &quotients);
     if (power.is_zero()) return false;
-    if (power.terms() > kMostTerms) break;
+    if (is_long(power)) break;
     power = ring_.checked_product(power, power);
   }
   return true;
@@ -92,8 +94,10 @@ bool Prover::ends_motions_at_poles(const Polynomial& f) {
     for (std::size_t j = 0; j < i; ++j)
       if (std::ranges::count(ring_.pole_factors(bracket_entry(i, j)), f) > 0) return false;
   const Polynomial energy = convert(*model_.hamiltonian);
+  constexpr std::size_t kMostPoles = 6;
+  if (ring_.pole_factors(energy).size() > kMostPoles) return false;
   const auto coefficient = ring_.pole_coefficient(energy, f);
-  if (!coefficient) return false;
+  if (!coefficient || is_long(*coefficient)) return false;
   const auto [top, bottom] = ring_.lowest_terms(energy);
   Polynomial rest = bottom, quotient(ring_.ring()), pole = ring_.ring().constant(1);
   for (; rest.divide(f, &quotient); rest = quotient) pole = pole * f;
@@ -106,14 +110,29 @@ bool Prover::ends_motions_at_poles(const Polynomial& f) {
   return meet_only_where(*coefficient, f, has_none_where_zero);
 }
 
-/// The conserved Hamiltonian is infinite at almost all points where f is zero: its denominator is
-/// zero at all of them, under whatever name, and its numerator, a function without poles, is not.
+/// Whether the bracket, which has no pole at f, moves it where it is zero: with {x, z} = x^4 all
+/// motions of H = z/x^4 come to x = 0 with z = 0 there.
+bool Prover::is_moved_by_bracket(const Polynomial& f) {
+  if (!model_.poisson) return false;
+  for (std::size_t i = 0; i < dimension(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::ranges::count(ring_.pole_factors(bracket_entry(i, j)), f) > 0) return false;
+  const std::vector<Polynomial> flow = flow_of(gradient(f));
+  return std::ranges::any_of(flow, [&](const Polynomial& rate) {
+    Polynomial quotient(ring_.ring());
+    return !rate.is_zero() && !rate.divide(f, &quotient);
+  });
+}
+
+/// The conserved Hamiltonian is infinite at almost all points where f is zero: it is c/d^k + .., d
+/// is zero there, and c, a function without roots and of few poles, is not.
 bool Prover::ends_almost_all_motions(const Polynomial& f) {
-  if (!model_.hamiltonian || model_.time) return false;
-  const Polynomial& energy = convert(*model_.hamiltonian);
-  const auto [top, bottom] = ring_.lowest_terms(energy);
-  return ring_.pole_factors(top).empty() && !bottom.is_constant() &&
-         !is_nonzero_somewhere(bottom, f) && is_nonzero_somewhere(top, f);
+  if (!model_.hamiltonian || model_.time || !is_moved_by_bracket(f)) return false;
+  const auto leading = ring_.leading_divided_by(convert(*model_.hamiltonian), f);
+  if (!leading || is_long(*leading) || !ring_.radicand_factors(*leading).empty()) return false;
+  const auto [top, bottom] = ring_.lowest_terms(*leading);
+  Polynomial quotient(ring_.ring());
+  return ring_.pole_factors(top).empty() && !top.divide(f, &quotient);
 }
 
 bool Prover::varies(const Polynomial& p) const {
@@ -140,12 +159,15 @@ std::vector<Polynomial> Prover::kinks_of(
 }
 
 /// \param almost  without the poles that all motions end at but for those of a smaller set
-std::vector<Polynomial> Prover::kinks_of_motion(bool almost) {
-  if (!has_motion()) return {};
-  return kinks_of(field(), [&](const Polynomial& f) {
-    return !keeps_sign(f, {}) && !(almost && ends_almost_all_motions(f)) &&
-           !ends_motions_at_poles(f);
-  });
+const std::vector<Polynomial>& Prover::kinks_of_motion(bool almost) {
+  std::optional<std::vector<Polynomial>>& known = almost ? kinks_almost_ : kinks_;
+  if (!known && !has_motion()) known.emplace();
+  if (!known)
+    known = kinks_of(field(), [&](const Polynomial& f) {
+      return !(almost && ends_almost_all_motions(f)) && !keeps_sign(f, {}) &&
+             !ends_motions_at_poles(f);
+    });
+  return *known;
 }
 
 std::vector<Polynomial> Prover::kinks_of_flows() {

@@ -142,9 +142,8 @@ void require_nonzero_on_constraints(Prover& prover, Proof& proof, const GiNaC::e
 }
 
 /// Whether the gradient of an irreducible function is not zero all over a piece of its zeros: that
-/// of an irreducible polynomial is not where these are a surface, and of 1 - sin(x), another
-/// function of
-/// the ring, it is. \param slopes  its gradient
+/// of an irreducible polynomial is not where these are a surface, and of 1 - sin(x) it is.
+/// \param slopes  its gradient
 bool is_simple(Prover& prover, const Polynomial& u, const std::vector<Polynomial>& slopes) {
   const FunctionRing& ring = prover.ring();
   if (!prover.model().constraints.empty()) return false;  // on z = x^2 that of z is zero with z

@@ -136,6 +136,25 @@ TEST(PassedPoles, OfTheEnergyArePassedByFewMotions) {
   }
 }
 
+/// A bracket that has a pole itself, or keeps x = 0, takes all motions there at a finite energy:
+/// x = -t, y = t*|t|.
+TEST(PassedPoles, OfTheEnergyArePassedWhereTheBracketLeadsThere) {
+  struct System {
+    std::string energy, yz, zx;
+  };
+  for (const auto& [energy, yz, zx] :
+       {System{"z + (w + abs(w))/x", "-2*y/x", "1"}, System{"z + sin(x)/x", "-2*y/x", "1"},
+        System{"z + w/x", "-2*y/x", "1"}, System{"z/x^4", "-2*y*x^3", "x^4"}}) {
+    const Proof proof = proof_in_case(
+        "integral", "hamiltonian = \"" + energy +
+                        "\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\", \"w\"]\n"
+                        "[phase_space.brackets]\n\"y,z\" = \"" +
+                        yz + "\"\n\"z,x\" = \"" + zx + "\"\n[integrals]\nF = \"y/x^2\"\n");
+    EXPECT_EQ(proof.verdict, Verdict::proved) << energy;
+    EXPECT_EQ(proof.jumps, std::vector<std::string>{"x = 0"}) << energy;
+  }
+}
+
 /// |x|^(2 a) is a pole for a < 0, and log|x| times what is zero there may be anything.
 TEST(PassedPoles, OfPowersAndLogarithmsAreSeen) {
   const auto relation = [](const std::string& y, const std::string& f) {
