@@ -141,6 +141,8 @@ class Prover {
   ///               what they keep the signs of are Casimir functions
   std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts, bool every = false);
 
+  /// The poles of the equations, but for those that almost all motions end at or never reach.
+  std::vector<Polynomial> passed_poles();
   /// Whether two functions may vanish at one point of the constraints, as far as is seen.
   bool may_meet(const Polynomial& a, const Polynomial& b);
 

@@ -170,6 +170,16 @@ const std::vector<Polynomial>& Prover::kinks_of_motion(bool almost) {
   return *known;
 }
 
+std::vector<Polynomial> Prover::passed_poles() {
+  std::vector<Polynomial> result = kinks_of_motion(true);
+  std::erase_if(result, [&](const Polynomial& f) {
+    return std::ranges::none_of(field(), [&](const Polynomial& rate) {
+      return std::ranges::count(ring_.pole_factors(rate), f) > 0;
+    });
+  });
+  return result;
+}
+
 std::vector<Polynomial> Prover::kinks_of_flows() {
   std::vector<Polynomial> entries;
   for (std::size_t i = 0; model_.poisson && i < dimension(); ++i)

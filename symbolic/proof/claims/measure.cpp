@@ -155,12 +155,31 @@ bool is_simple(Prover& prover, const Polynomial& u, const std::vector<Polynomial
          });
 }
 
+/// Poles of the equations at which all motions of a measure may meet, since its density becomes
+/// infinite there: those of x' = -1, y' = -2*y/x keep x^2/(x^4 + y^2) and come to y = 0 with x.
+std::vector<Polynomial> foci(Prover& prover, const Polynomial& rho) {
+  const FunctionRing& ring = prover.ring();
+  std::vector<Polynomial> infinite = ring.pole_factors(rho);
+  const std::vector<Polynomial> rough = ring.radicand_factors(rho);
+  // Of x/|x| no pole is seen, and none is there.
+  std::erase_if(infinite, [&](const Polynomial& d) {
+    return std::ranges::count(rough, d) > 0 && !ring.pole_coefficient(rho, d);
+  });
+  std::vector<Polynomial> places = prover.passed_poles();
+  std::erase_if(places, [&](const Polynomial& f) {
+    return std::ranges::none_of(infinite,
+                                [&](const Polynomial& d) { return prover.may_meet(d, f); });
+  });
+  return places;
+}
+
 /// The places that motions pass and where the measure need not be kept.
 ///
 /// Theorem: where the continuity equation holds on both sides of a surface u = 0, it holds across
-/// it if the flux through it, rho*du/dt, is continuous there: p' = -sign(q) keeps dp dq, and x' = 2
-/// + sign(x) makes one unit of dx into three. Assumed: the gradient of u is not zero all over a
-/// piece of the surface (`is_simple`). What is of less dimension is passed by almost no motion.
+/// it if the flux through it, rho*du/dt, is continuous there: p' = -sign(q) keeps dp dq, and
+/// x' = 2 + sign(x) makes one unit of dx into three. Assumed: the gradient of u is not zero all
+/// over a piece of the surface (`is_simple`), and the density is bounded where the equations have
+/// poles (`foci`): then what is of less dimension is passed by almost no motion.
 /// \param every  of the flows of all Hamiltonians
 std::vector<Polynomial> leaks(Prover& prover, const Polynomial& rho, bool every) {
   const std::size_t n = prover.dimension();
@@ -187,6 +206,8 @@ std::vector<Polynomial> leaks(Prover& prover, const Polynomial& rho, bool every)
       });
     });
   });
+  for (Polynomial& f : every ? std::vector<Polynomial>{} : foci(prover, rho))
+    if (std::find(places.begin(), places.end(), f) == places.end()) places.push_back(std::move(f));
   return places;
 }
 

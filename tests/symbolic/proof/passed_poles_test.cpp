@@ -48,6 +48,11 @@ TEST(PassedPoles, ADoubleZeroHidesAFlux) {
   EXPECT_FALSE(proof.where.empty());
 }
 
+/// All motions meet at the origin, where each may go on as any other.
+TEST(PassedPoles, AMeasureLeaksWhereMotionsMeet) {
+  EXPECT_EQ(measure_of("-1", "-2*y/x", "x^2/(x^4 + y^2)").where, kNotAcrossZero);
+}
+
 TEST(PassedPoles, OfABracketLeakForEveryHamiltonian) {
   const auto where = [](const std::string& bracket, const std::string& density) {
     return proof_in_case("measure",
