@@ -98,13 +98,13 @@ bool Prover::ends_motions_at_poles(const Polynomial& f) {
   if (ring_.pole_factors(energy).size() > kMostPoles) return false;
   const auto coefficient = ring_.pole_coefficient(energy, f);
   if (!coefficient || is_long(*coefficient)) return false;
-  const auto [top, bottom] = ring_.lowest_terms(energy);
-  Polynomial rest = bottom, quotient(ring_.ring()), pole = ring_.ring().constant(1);
+  const auto terms = ring_.lowest_terms(energy);
+  Polynomial rest = terms.second, quotient(ring_.ring()), pole = ring_.ring().constant(1);
   for (; rest.divide(f, &quotient); rest = quotient) pole = pole * f;
   const auto has_none_where_zero = [&](const Polynomial& factor) {
     if (varies(factor) || pole.is_constant()) return false;
     std::vector<Polynomial> unused(1, pole);
-    const Polynomial left = top.remainder({factor}, &unused);
+    const Polynomial left = terms.first.remainder({factor}, &unused);
     return left.is_zero() || left.divide(pole, &quotient);
   };
   return meet_only_where(*coefficient, f, has_none_where_zero);
