@@ -34,8 +34,9 @@ TEST(DriftCheck, AnIntegralOnTheDomainAloneSaysNothingOfTheRun) {
   EXPECT_NE(doubts.sentences[0].find("on the domain of the case alone"), std::string::npos);
 }
 
-/// A rotation with an integral that has no value at radius 1.
-Model rotation(const std::string& x, const std::string& y) {
+/// A rotation with an integral, if not said otherwise one that has no value at radius 1.
+Model rotation(const std::string& x, const std::string& y,
+               const std::string& integral = "(x^2 + y^2)^2/(x^2 + y^2 - 1)") {
   return model_of(R"toml(
 title = "rotation"
 [phase_space]
@@ -43,14 +44,12 @@ variables = ["x", "y"]
 [equations]
 x = "y"
 y = "-x"
-[integrals]
-F = "(x^2 + y^2)^2/(x^2 + y^2 - 1)"
 [[scene]]
 name = "default"
 duration = "10"
 )toml"
                   "initial = { x = \"" +
-                  x + "\", y = \"" + y + "\" }\n");
+                  x + "\", y = \"" + y + "\" }\n[integrals]\nF = \"" + integral + "\"\n");
 }
 
 TEST(DriftCheck, AnIntegralWithoutAValueSaysNothingOfTheRun) {
@@ -83,20 +82,7 @@ TEST(DriftCheck, AnIntegralThatIsLostOnTheWayIsLookedAtAtTheEnd) {
 
 /// Beside x^2 + y^2 = 1 the root has no value on one side, which is no change.
 TEST(DriftCheck, AnIntegralAtTheEdgeOfItsDomainIsLookedAt) {
-  const Model model = model_of(R"toml(
-title = "rotation"
-[phase_space]
-variables = ["x", "y"]
-[equations]
-x = "y"
-y = "-x"
-[integrals]
-F = "5 + sqrt(x^2 + y^2 - 1)"
-[[scene]]
-name = "default"
-initial = { x = "1", y = "0" }
-duration = "10"
-)toml");
+  const Model model = rotation("1", "0", "5 + sqrt(x^2 + y^2 - 1)");
   const PreparedScene run = prepare(model, model.scene("default"));
   Trajectory drifted = ended(run, {{.initial = 5, .final = 7, .drift = 0.4, .allowed = 1e-9}});
   EXPECT_TRUE(check_drift(model, model.scene("default"), run, drifted).which.empty());
