@@ -23,7 +23,8 @@ class FunctionPieces {
 
   /// The irreducible factors of what stands under the roots and absolute values that `p` contains,
   /// also within other functions. Where none of them vanishes, `p` is differentiable.
-  /// \param cuts  with what has to vanish for atan2 to jump, which does not concern derivatives
+  /// \param cuts  with what has to vanish for atan2 to jump, and for arguments to become infinite,
+  ///              which does not concern derivatives
   std::vector<Polynomial> radicand_factors(const Polynomial& p, bool cuts = false) const;
 
   /// The irreducible factors of what `p` divides by as it is written, and what it contains, and of
@@ -40,8 +41,7 @@ class FunctionPieces {
   /// functions that are analytic there are none: what is constant along a motion has no pole there.
   /// Whether the two zeros of a place have a point in common is not looked at: in x + 1 - 2*r and
   /// r - 1, with r = sqrt(x), that is not written.
-  /// \param cuts  with those of atan2, and of arguments of other functions than atan and atan2 that
-  ///              become infinite
+  /// \param cuts  with those of atan2; poles of arguments, as of tanh(1/x), count always
   /// \param more  what may be zero where the functions in `p` are not analytic along a motion,
   ///              beside what stands under its roots
   std::vector<JumpPlace> jump_factors(const Polynomial& p, bool cuts = true,

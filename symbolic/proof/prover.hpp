@@ -140,6 +140,8 @@ class Prover {
   /// \param every  of the flows of all Hamiltonians, as where the claim is about the bracket alone:
   ///               what they keep the signs of are Casimir functions
   std::vector<Polynomial> passed_jumps(const Polynomial& function, bool cuts, bool every = false);
+  /// Adds these places to what is said of a proved claim.
+  void say_where_it_jumps(Proof& proof, const Polynomial& function, bool cuts, bool every = false);
 
   /// The poles of the equations, but for those that almost all motions end at or never reach.
   std::vector<Polynomial> passed_poles();

@@ -248,4 +248,12 @@ std::vector<Polynomial> Prover::passed_jumps(const Polynomial& function, bool cu
   return std::move(jumps).passed();
 }
 
+void Prover::say_where_it_jumps(Proof& proof, const Polynomial& function, bool cuts, bool every) {
+  for (const Polynomial& jump : passed_jumps(function, cuts, every)) {
+    std::string place = ring_.text(jump) + " = 0";
+    if (std::find(proof.jumps.begin(), proof.jumps.end(), place) == proof.jumps.end())
+      proof.jumps.push_back(std::move(place));
+  }
+}
+
 }  // namespace casimir

@@ -28,9 +28,7 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
             prover.decide(proof, residuals, level);
             if (proof.verdict == Verdict::proved && !level.empty())
               prover.is_smooth_on(proof, level, {f});
-            if (proof.verdict != Verdict::proved) return;
-            for (const Polynomial& jump : prover.passed_jumps(c, true, true))
-              proof.jumps.push_back(prover.ring().text(jump) + " = 0");
+            if (proof.verdict == Verdict::proved) prover.say_where_it_jumps(proof, c, true, true);
           },
           names_of(on),
           values_of(on, f),

@@ -81,8 +81,7 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
               decide_on_invariant_level(prover, own, {rate_of(prover, f)}, f, level);
             });
             if (proof.verdict != Verdict::proved) return;
-            for (const Polynomial& jump : prover.passed_jumps(prover.convert(f.value), false))
-              proof.jumps.push_back(prover.ring().text(jump) + " = 0");
+            prover.say_where_it_jumps(proof, prover.convert(f.value), false);
             if (has_angle(f.value))
               proof.evidence +=
                   (proof.evidence.empty() ? "" : "; ") +

@@ -142,11 +142,7 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
     proof.integrals.push_back(f.terms() <= kMaxTerms
                                   ? prover.ring().text(f.scaled(1 / f.content()))
                                   : fmt::format("a function of {} terms", f.terms()));
-    for (const Polynomial& jump : prover.passed_jumps(f, true)) {
-      std::string place = prover.ring().text(jump) + " = 0";
-      if (std::find(proof.jumps.begin(), proof.jumps.end(), place) == proof.jumps.end())
-        proof.jumps.push_back(std::move(place));
-    }
+    prover.say_where_it_jumps(proof, f, true);
   }
   std::vector<Polynomial> known;
   const Model& model = prover.model();
