@@ -29,7 +29,23 @@ Symbols variables_of(const std::vector<Text>& names, const Symbols& variables) {
   return result;
 }
 
-void read_fields(const VectorFieldsText& text, const Symbols& variables, Scope& names,
+/// A field may not depend on momenta, nor on the time.
+/// \param known  what it may depend on
+void refuse_others(const Text& text, const ex& component,
+                   const std::vector<const Symbols*>& known) {
+  for (auto part = component.preorder_begin(); part != component.preorder_end(); ++part) {
+    if (!GiNaC::is_a<GiNaC::symbol>(*part)) continue;
+    const auto is_in = [&](const Symbols* list) {
+      return std::ranges::any_of(*list, [&](const auto& own) { return ex(own).is_equal(*part); });
+    };
+    if (std::ranges::any_of(known, is_in)) continue;
+    throw text.error(
+        fmt::format("a field of the frame depends on the coordinates only, not on '{}'",
+                    GiNaC::ex_to<GiNaC::symbol>(*part).get_name()));
+  }
+}
+
+void read_fields(const VectorFieldsText& text, const Symbols& parameters, Scope& names,
                  Frame& frame) {
   const std::size_t k = frame.momenta.size();
   frame.fields.assign(k, std::vector<ex>(frame.coordinates.size(), 0));
@@ -44,17 +60,7 @@ void read_fields(const VectorFieldsText& text, const Symbols& variables, Scope& 
       const Quantity component = parse_expression(value, names);
       frame.fields[s][i] = component.value;
       for (const ex& part : lost_parts(component)) frame.domain.push_back(part);
-      for (const GiNaC::symbol& v : variables) {
-        const bool is_coordinate =
-            std::any_of(frame.coordinates.begin(), frame.coordinates.end(),
-                        [&](const GiNaC::symbol& q) { return q.is_equal(v); });
-        if (!is_coordinate && frame.fields[s][i].has(v)) {
-          throw value.error(
-              fmt::format("a field of the frame depends on the coordinates only, not "
-                          "on '{}'",
-                          v.get_name()));
-        }
-      }
+      refuse_others(value, component.value, {&frame.coordinates, &parameters});
     }
   }
   for (std::size_t s = 0; s < k; ++s) {
@@ -249,7 +255,7 @@ Frame make_frame(const VectorFieldsText& text, const Symbols& variables, const S
   constexpr std::size_t kMaxFields = 12;
   if (k > kMaxFields)
     throw CaseError(text.where, fmt::format("a frame has at most {} vector fields", kMaxFields));
-  read_fields(text, variables, names, frame);
+  read_fields(text, parameters, names, frame);
   Symbols symbols = frame.coordinates;
   symbols.insert(symbols.end(), parameters.begin(), parameters.end());
   StructureFunctions structure(frame, symbols, names.limits());

@@ -109,8 +109,9 @@ class Prover {
   /// Theorem (Gronwall): if f = (f_1, .., f_k) is continuously differentiable near the level and
   /// df/dt = A f with A continuous, a solution that starts on f = 0 stays there. Hypotheses: no
   /// radicand of f vanishes on the level (`is_smooth_on`), nor does a denominator of df/dt in
-  /// lowest terms (`vanishes_nowhere_on`); the leading coefficients that the level was solved by do
-  /// not vanish, or the level on which they do is invariant too.
+  /// lowest terms (`vanishes_nowhere_on`); nor does a motion pass a pole of df/dt, else the claim
+  /// is about motions that do not (`say_where_motions_leave`); the leading coefficients that the
+  /// level was solved by do not vanish, or the level on which they do is invariant too.
   void decide_invariance(Proof& proof, const std::vector<NamedExpression>& functions);
 
   /// What is asked of functions on a level.
@@ -124,6 +125,12 @@ class Prover {
   /// left undecided for this reason.
   bool is_smooth_on(Proof& proof, const Level& level, const std::vector<NamedExpression>& list,
                     Smooth smooth = Smooth::everywhere);
+  /// Says of a proved invariant level that motions may leave it at poles of the rates of its
+  /// functions: along x' = 1, y' = 2*y/x, y is 0 and then x^2.
+  void say_where_motions_leave(Proof& proof, const Level& level,
+                               const std::vector<Residual>& rates);
+  /// Whether a real point of the level was found at which the expressions have real values.
+  bool has_points_on(const Level& level, const std::vector<GiNaC::ex>& expressions);
   /// Says of a proved claim about brackets of these functions that it holds where they are
   /// differentiable: {q + |p|, p} is 1 but where p = 0, whatever the bracket multiplies sign(p) by.
   void say_where_differentiable(Proof& proof, const std::vector<GiNaC::ex>& functions);
@@ -287,7 +294,6 @@ class Prover {
   static std::vector<NamedExpression> functions_of(const Level& level);
   const std::vector<GiNaC::ex>& claim_expressions() const;
   const std::vector<GiNaC::ex>& all_expressions() const;
-  bool has_points_on(const Level& level, const std::vector<GiNaC::ex>& expressions);
   bool has_inner_points();
   bool has_points_on_constraints(const Level& own);
   bool has_point_of_constraints(const std::vector<GiNaC::ex>& expressions, bool differentiable);

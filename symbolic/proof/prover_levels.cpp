@@ -284,7 +284,7 @@ void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> f
     for (const Residual& rate : rates) {
       if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});
     }
-    if (functions.size() == before) return;
+    if (functions.size() == before) return say_where_motions_leave(proof, own, rates);
   }
   proof = blank;
   proof.verdict = Verdict::undecided;

@@ -17,6 +17,24 @@ bool Prover::keeps_sign(const Polynomial& u, const Level& level) {
          std::ranges::all_of(ring_.pole_factors(cofactor), has_no_zero);
 }
 
+void Prover::say_where_motions_leave(Proof& proof, const Level& level,
+                                     const std::vector<Residual>& rates) {
+  const auto may_pass = [&](const Polynomial& pole) {
+    const std::vector<Polynomial>& kinks = kinks_of_motion(false);
+    return std::find(kinks.begin(), kinks.end(), pole) != kinks.end() &&
+           !vanishes_nowhere_on(pole, level, Divisors::of_motion) && !keeps_sign(pole, level) &&
+           !vanishes_nowhere_on(pole, this->level(model_.constraints), Divisors::of_motion);
+  };
+  for (const Residual& rate : rates) {
+    for (const Polynomial& pole : ring_.pole_factors(rate.value)) {
+      if (!may_pass(pole)) continue;
+      std::string condition = fmt::format("on motions that do not cross {} = 0", ring_.text(pole));
+      if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
+        proof.where.push_back(std::move(condition));
+    }
+  }
+}
+
 void Prover::say_where_differentiable(Proof& proof, const std::vector<GiNaC::ex>& functions) {
   if (proof.verdict != Verdict::proved) return;
   for (const GiNaC::ex& function : functions) {

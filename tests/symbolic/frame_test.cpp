@@ -1,6 +1,8 @@
 // The frame of the Poincare-Chetaev equations: structure functions, bracket, Legendre transform.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
 
@@ -58,6 +60,33 @@ TEST(Frame, LagrangianGivesTheEquationsOfEulerAndLagrange) {
                            "Euler-Lagrange equations", "the frame closes"}) {
     const Proof proof = proof_of(model, name);
     EXPECT_EQ(proof.verdict, Verdict::proved) << name << ": " << proof.residual;
+  }
+}
+
+/// Where the fields are dependent the velocities are no functions of dx/dt: for c = 0 there are no
+/// such equations, though nothing is left of c in them.
+TEST(Frame, EquationsOfEulerAndLagrangeNeedIndependentFields) {
+  const Proof proof = proof_of(model_of("lagrangian = \"w1^2/2\"\n[phase_space]\nvariables = "
+                                        "[\"x\", \"M\"]\n[phase_space.vector_fields]\n"
+                                        "coordinates = [\"x\"]\nmomenta = [\"M\"]\nM = "
+                                        "[\"c*x\"]\n[parameters]\nc = {}\n"),
+                               "Euler-Lagrange equations");
+  EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+  for (const char* divisor : {"c", "x"})
+    EXPECT_EQ(std::ranges::count(proof.nonzero, divisor), 1) << divisor;
+}
+
+TEST(Frame, FieldsThatDependOnTheTimeAreRefusedWhereTheyStand) {
+  try {
+    model_of(
+        "hamiltonian = \"M^2/2\"\n[phase_space]\nvariables = [\"x\", \"M\"]\n"
+        "time = \"t\"\n[phase_space.vector_fields]\ncoordinates = [\"x\"]\nmomenta = [\"M\"]\nM = "
+        "[\"1 + "
+        "t^2\"]\n");
+    FAIL() << "no refusal";
+  } catch (const CaseError& error) {
+    EXPECT_EQ(error.where().line, 8);
+    EXPECT_NE(error.text().find("not on 't'"), std::string::npos) << error.text();
   }
 }
 

@@ -17,7 +17,9 @@ struct Defect {
   ex value;
 };
 
-Claim vanishing(const std::string& name, const std::vector<Defect>& defects) {
+/// \param divisors  what the claim divides by beside that
+Claim vanishing(const std::string& name, const std::vector<Defect>& defects,
+                const std::vector<ex>& divisors = {}) {
   Claim claim{
       ClaimKind::identity, name, false, [defects](Prover& prover, Proof& proof) {
         std::vector<Residual> residuals;
@@ -28,6 +30,7 @@ Claim vanishing(const std::string& name, const std::vector<Defect>& defects) {
         prover.decide(proof, residuals, {});
       }};
   for (const Defect& defect : defects) claim.expressions.push_back(defect.value);
+  for (const ex& divisor : divisors) claim.expressions.push_back(1 / divisor);
   claim.subject = Subject::functions;
   return claim;
 }
@@ -100,11 +103,7 @@ class Lagrangian {
   /// The equations of Euler and Lagrange in the coordinates themselves, where w = A(x) dx/dt.
   std::vector<Defect> euler_lagrange() const {
     const auto n = static_cast<unsigned>(frame_.coordinates.size());
-    GiNaC::matrix fields(n, n);  // dx/dt = fields * w
-    for (unsigned i = 0; i < n; ++i) {
-      for (unsigned s = 0; s < n; ++s) fields(i, s) = fit_for_normal(frame_.fields[s][i]);
-    }
-    const GiNaC::matrix a = fields.inverse();
+    const GiNaC::matrix a = fields().inverse();
     std::vector<Defect> defects;
     for (unsigned i = 0; i < n; ++i) {
       const GiNaC::symbol& x = frame_.coordinates[i];
@@ -121,7 +120,19 @@ class Lagrangian {
     return defects;
   }
 
+  /// The determinant of the fields: where it vanishes, the velocities are no functions of dx/dt.
+  ex volume() const { return fields().determinant().normal(); }
+
  private:
+  /// The matrix with dx/dt = fields * w.
+  GiNaC::matrix fields() const {
+    const auto n = static_cast<unsigned>(frame_.coordinates.size());
+    GiNaC::matrix result(n, n);
+    for (unsigned i = 0; i < n; ++i)
+      for (unsigned s = 0; s < n; ++s) result(i, s) = fit_for_normal(frame_.fields[s][i]);
+    return result;
+  }
+
   const Model& model_;
   const Frame& frame_;
   std::vector<ex> velocities_;  ///< dH/dM_s
@@ -140,7 +151,8 @@ std::vector<Claim> frame_claims(const Model& model) {
   claims.push_back(vanishing("Poincare-Chetaev equations", lagrangian.poincare_chetaev()));
   if (model.frame->coordinates.size() == model.frame->momenta.size()) {
     try {
-      claims.push_back(vanishing("Euler-Lagrange equations", lagrangian.euler_lagrange()));
+      claims.push_back(vanishing("Euler-Lagrange equations", lagrangian.euler_lagrange(),
+                                 {lagrangian.volume()}));
     } catch (const std::runtime_error&) {
       // The fields are dependent (redundant coordinates): there are no such equations.
     }

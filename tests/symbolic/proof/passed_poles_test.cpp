@@ -1,6 +1,7 @@
 // Poles that motions pass, in functions and in the equations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,45 @@ TEST(PassedPoles, OfTheEquationsPartMotions) {
   EXPECT_EQ(jumps("1", "2*y/x^3", "y*exp(1/x^2)"), at_zero);
   EXPECT_EQ(jumps("1", "2*y/x", "y/x^2"), at_zero);
   EXPECT_TRUE(jumps("x", "2*y", "y/x^2").empty());  // a motion stays on its side
+}
+
+/// With y = 0 for x <= 0 goes y = x^2, exp(-1/x^2), .. behind: what leaves a level takes the claims
+/// on it along.
+TEST(PassedPoles, OfACofactorLetMotionsLeaveALevel) {
+  struct Motion {
+    std::string x, y, relation, pole;
+  };
+  const auto claims = [](const std::string& f) {
+    return std::vector<std::pair<const char*, std::string>>{
+        {"invariant_relation",
+         "[[invariant_relation]]\nname = \"R\"\nexpression = \"" + f + "\"\n"},
+        {"conditional",
+         "[[conditional]]\nname = \"C\"\nexpression = \"" + f + "\"\non = [\"" + f + "\"]\n"},
+        {"lax", "[[lax]]\non = [\"" + f + "\"]\nL = [[\"" + f + "\"]]\nA = [[\"0\"]]\n"}};
+  };
+  for (const Motion& m :
+       {Motion{"1", "2*y/x", "y", "x"}, Motion{"1", "2*y/x^3", "y", "x"},
+        Motion{"1", "2*y/x", "y - x^2", "x"}, Motion{"1", "2*x*y/(x^2 + y^2)", "y", "x^2 + y^2"},
+        Motion{"1", "3*y*cos(x)/sin(x)", "y", "sin(x)"}, Motion{"y/x", "1", "x - y", "x"}}) {
+    for (const auto& [kind, claim] : claims(m.relation)) {
+      const Proof proof = proof_in_case(kind, flow(m.x, m.y, claim));
+      if (proof.verdict != Verdict::proved) continue;
+      EXPECT_EQ(std::ranges::count(proof.where, "on motions that do not cross " + m.pole + " = 0"),
+                1)
+          << kind << " " << m.y;
+    }
+  }
+  // A motion keeps to its side, or there is no pole.
+  for (const Motion& m : {Motion{"x", "2*y/x", "y", ""}, Motion{"1", "2*x*y/(1 + x^2)", "y", ""}}) {
+    for (const auto& [kind, claim] : claims(m.relation)) {
+      const Proof proof = proof_in_case(kind, flow(m.x, m.y, claim));
+      EXPECT_EQ(proof.verdict, Verdict::proved) << kind << " " << m.y;
+      EXPECT_TRUE(std::ranges::none_of(
+          proof.where,
+          [](const std::string& where) { return where.find("motions") != std::string::npos; }))
+          << kind << " " << m.y;
+    }
+  }
 }
 
 Model of_two_particles(const std::string& potential, const std::string& claims) {
