@@ -296,11 +296,18 @@ std::vector<Proof> prove(const Model& model, const Candidates& candidates,
   const std::vector<Claim> claims = claims_of(model, candidates);
   const Meaningless meaningless = candidates.empty() ? Meaningless::undecided : Meaningless::thrown;
   if (!has_arbitrary_functions(model)) return decide_claims(model, claims, meaningless, report);
+  return decide_claims_for_all(model, claims, meaningless, report,
+                               [&](const Model& own, const GivenFunctions& given) {
+                                 return claims_of(model, own, candidates, given);
+                               });
+}
+
+std::vector<Proof> decide_claims_for_all(
+    const Model& model, const std::vector<Claim>& claims, Meaningless meaningless,
+    const std::function<bool(const Proof&)>& report,
+    const std::function<std::vector<Claim>(const Model&, const GivenFunctions&)>& make) {
   Provers provers(model, claims, true);
-  std::vector<GivenCase> cases =
-      given_cases(model, claims.size(), [&](const Model& own, const GivenFunctions& given) {
-        return claims_of(model, own, candidates, given);
-      });
+  std::vector<GivenCase> cases = given_cases(model, claims.size(), make);
   std::vector<Proof> proofs;
   for (std::size_t i = 0; i < claims.size(); ++i) {
     proofs.push_back(undecided(claims[i]));

@@ -65,7 +65,9 @@ std::string text_of_recurrence(const std::vector<std::int64_t>& c) {
     text += text.empty() ? (c[i] < 0 ? "-" : "") : (c[i] < 0 ? " - " : " + ");
     text += (size == 1 ? "" : fmt::format("{}*", size)) + fmt::format("d(n-{})", i + 1);
   }
-  return "d(n) = " + (text.empty() ? "0" : text);
+  text = "d(n) = " + (text.empty() ? "0" : text);
+  // The first ones of the degrees need not obey it.
+  return c.back() != 0 ? text : fmt::format("{} for n > {}", text, c.size());
 }
 
 /// The order of the root 1 of the characteristic polynomial where all roots are 0 or roots of
@@ -156,22 +158,45 @@ std::optional<std::pair<int, std::string>> polynomial_of(const std::vector<int>&
   return std::pair(static_cast<int>(first.size()) - 1, text.empty() ? "0" : text);
 }
 
-/// Polynomial growth n^k has d(n)/d(n-1) near 1 + k/n.
-Growth by_ratio(const std::vector<int>& degrees) {
+/// Of the last so many steps, how the degrees grew: f(d(n-1), d(n), n).
+template <class Function>
+std::vector<double> last_steps(const std::vector<int>& degrees, std::size_t count, Function f) {
+  std::vector<double> result;
+  for (std::size_t i = degrees.size() - std::min(count, degrees.size() - 1); i < degrees.size();
+       ++i)
+    result.push_back(f(static_cast<double>(degrees[i - 1]), static_cast<double>(degrees[i]),
+                       static_cast<double>(i + 1)));
+  return result;
+}
+
+double largest(const std::vector<double>& list) { return *std::ranges::max_element(list); }
+double smallest(const std::vector<double>& list) { return *std::ranges::min_element(list); }
+
+/// Where no rule was found: polynomial growth n^k has steps log(d(n)/d(n-1))/log(n/(n-1)) near k,
+/// exponential growth has ratios near one number. Degrees that fall, stay for a while or jump, as
+/// those of monomial maps whose eigenvalues are complex, are called neither.
+Growth by_steps_of_degrees(const std::vector<int>& degrees) {
   Growth growth;
+  constexpr std::size_t kRatios = 3, kFewest = 6;
+  if (degrees.size() < 3 || std::ranges::any_of(degrees, [](int d) { return d <= 0; }))
+    return growth;
   const auto n = static_cast<double>(degrees.size());
-  if (degrees.size() < 3 || degrees[degrees.size() - 2] <= 0) return growth;
-  const double ratio = static_cast<double>(degrees.back()) / degrees[degrees.size() - 2];
-  if (ratio > 1 + 5 / n) {
+  const std::vector<double> ratios =
+      last_steps(degrees, kRatios, [](double before, double d, double) { return d / before; });
+  const std::vector<double> slopes =
+      last_steps(degrees, (degrees.size() + 1) / 2, [](double before, double d, double i) {
+        return std::log(d / before) / std::log(i / (i - 1));
+      });
+  constexpr double kRatioSpread = 1.25, kSlopeSpread = 1.5, kHighest = 4;
+  if (ratios.back() > 1 + 5 / n && smallest(ratios) > 1 &&
+      largest(ratios) < kRatioSpread * smallest(ratios)) {
     growth.kind = Growth::Kind::exponential;
-    growth.ratio = ratio;
-  } else if (ratio < 1 + 3 / n && degrees.size() >= 6) {
+    growth.ratio = ratios.back();
+  } else if (degrees.size() >= kFewest && smallest(slopes) >= 0 && largest(slopes) < kHighest &&
+             largest(slopes) - smallest(slopes) < kSlopeSpread) {
     growth.kind = Growth::Kind::polynomial;
-    const std::size_t half = degrees.size() / 2;
-    const double slope =
-        std::log(static_cast<double>(degrees.back()) / std::max(degrees[half - 1], 1)) /
-        std::log(n / static_cast<double>(half));
-    growth.degree = static_cast<int>(std::lround(slope));
+    growth.degree = static_cast<int>(std::lround(std::accumulate(slopes.begin(), slopes.end(), 0.) /
+                                                 static_cast<double>(slopes.size())));
   }
   return growth;
 }
@@ -199,7 +224,7 @@ Growth growth_of(const std::vector<int>& degrees) {
     return growth;
   }
   const auto recurrence = recurrence_of(degrees);
-  if (!recurrence) return by_ratio(degrees);
+  if (!recurrence) return by_steps_of_degrees(degrees);
   growth.recurrence = text_of_recurrence(*recurrence);
   if (const auto order = order_of_one(*recurrence)) {
     growth.kind = Growth::Kind::polynomial;

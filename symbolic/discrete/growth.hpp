@@ -14,7 +14,7 @@ struct Growth {
   Kind kind = Kind::unclear;
   std::optional<int> degree;    ///< of polynomial growth
   std::string formula;          ///< "2*n^2 + 1" where all known degrees obey it; or empty
-  std::string recurrence;       ///< "d(n+2) = 3*d(n+1) - d(n)", the same
+  std::string recurrence;       ///< "d(n) = 3*d(n-1) - d(n-2)", and from where they obey it
   std::optional<double> ratio;  ///< of exponential growth: the entropy is its logarithm
 };
 

@@ -26,6 +26,7 @@ using Functions = std::vector<NamedExpression>;
 Proof decided_alone(const Model& model, const Claim& claim) {
   Proof proof;
   Prover prover(model, claim.expressions, claim.subject);
+  prover.take_as_inhabited(has_arbitrary_functions(model));
   prover.begin_claim(claim.expressions, claim.subject);
   claim.decide(prover, proof);
   return proof;
@@ -34,6 +35,7 @@ Proof decided_alone(const Model& model, const Claim& claim) {
 /// Decides a claim of the composition as of one map.
 void decide_whole(const MapModel& map, const Claim& whole, Proof& proof) {
   Prover alone(map.base, whole.expressions, whole.subject);
+  alone.take_as_inhabited(has_arbitrary_functions(map.base));
   alone.begin_claim(whole.expressions, whole.subject);
   proof.where.clear();
   whole.decide(alone, proof);
@@ -50,6 +52,7 @@ void say_where_composition_is(const Model& model, const Claim& whole, Proof& pro
     return;
   }
   Prover alone(model, whole.expressions, whole.subject);
+  alone.take_as_inhabited(has_arbitrary_functions(model));
   alone.begin_claim(whole.expressions, whole.subject);
   Proof nothing;
   alone.decide(nothing, {}, {});
@@ -64,8 +67,9 @@ void say_where_composition_is(const Model& model, const Claim& whole, Proof& pro
 /// Where a step does not keep it, or not without a condition, or what is kept need not have a value
 /// between the steps (`have_values_between_steps`), it is decided for the composition alone.
 ///
-/// \param kept  the functions that the claim is about, beside the map
-Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept,
+/// \param kept   the functions that the claim is about, beside the map
+/// \param level  on which it is claimed
+Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept, const Functions& level,
                     const std::function<Claim(const MapModel&)>& claim_of) {
   std::vector<Claim> parts;
   for (const MapModel& step : map.steps) parts.push_back(claim_of(step));
@@ -73,7 +77,7 @@ Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept,
   for (const Claim& part : parts)
     claim.expressions.insert(claim.expressions.end(), part.expressions.begin(),
                              part.expressions.end());
-  claim.decide = [&map, kept, parts, claim_of](Prover& prover, Proof& proof) {
+  claim.decide = [&map, kept, level, parts, claim_of](Prover& prover, Proof& proof) {
     if (!have_values_between_steps(map, kept)) return decide_whole(map, claim_of(map), proof);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Proof own = decided_alone(map.steps[i].base, parts[i]);
@@ -85,9 +89,13 @@ Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept,
       return decide_whole(map, claim_of(map), proof);
     }
     // One step may lead to where the next one has no value: then all this is about nothing.
-    if (!prover.real_points().any(domain_of(map, {}))) {
+    const std::vector<ex> steps = domain_of(map, {});
+    const bool nowhere = level.empty() ? !prover.real_points().any(steps)
+                                       : !prover.has_points_on(prover.level(level), steps);
+    if (nowhere && !has_arbitrary_functions(map.base)) {
       proof.where.clear();
-      proof.reason = "no point was found at which all steps have real values";
+      proof.reason = fmt::format("no point{} was found at which all steps have real values",
+                                 level.empty() ? "" : " of the level");
       return;
     }
     proof.verdict = Verdict::proved;
@@ -99,9 +107,10 @@ Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept,
 }
 
 Claim by_steps(const MapModel& map, ClaimKind kind, const std::string& name,
-               const std::vector<ex>& kept, const std::function<Claim(const MapModel&)>& claim_of) {
+               const std::vector<ex>& kept, const Functions& level,
+               const std::function<Claim(const MapModel&)>& claim_of) {
   return or_without_value(kind, name, [&] {
-    return map.steps.empty() ? claim_of(map) : kept_by_steps(map, kept, claim_of);
+    return map.steps.empty() ? claim_of(map) : kept_by_steps(map, kept, level, claim_of);
   });
 }
 
@@ -216,18 +225,20 @@ Claim whole_poisson_claim(const MapModel& map) {
 }  // namespace
 
 Claim integral_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
-  return by_steps(map, ClaimKind::integral, f.name, values_of(on, f),
+  return by_steps(map, ClaimKind::integral, f.name, values_of(on, f), on,
                   [f, on](const MapModel& own) { return whole_integral_claim(own, f, on); });
 }
 
 Claim invariant_relation_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
-  return by_steps(map, ClaimKind::invariant_relation, f.name, values_of(on, f),
+  Functions level = on;
+  level.push_back(f);
+  return by_steps(map, ClaimKind::invariant_relation, f.name, values_of(on, f), level,
                   [f, on](const MapModel& own) { return whole_relation_claim(own, f, on); });
 }
 
 Claim measure_claim(const MapModel& map, const NamedExpression& density) {
   return by_steps(
-      map, ClaimKind::measure, density.name, values_of(Functions{density}),
+      map, ClaimKind::measure, density.name, values_of(Functions{density}), {},
       [density](const MapModel& own) { return measure_claim_of_one_map(own, density); });
 }
 
@@ -239,7 +250,7 @@ Claim casimir_claim(const MapModel& /*map*/, const NamedExpression& f, const Fun
 Claim poisson_claim(const MapModel& map) {
   const std::string name = poisson_name(map);
   if (map.sign > 0)
-    return by_steps(map, ClaimKind::map, name, bracket_entries(map), whole_poisson_claim);
+    return by_steps(map, ClaimKind::map, name, bracket_entries(map), {}, whole_poisson_claim);
   return or_without_value(ClaimKind::map, name, [&] { return whole_poisson_claim(map); });
 }
 
@@ -289,6 +300,31 @@ std::string why_leaves_may_move(Prover& prover, const MapModel& map) {
       needed, known);
 }
 
+/// Hypothesis of the shift on tori: the map is continuous there. A turn by one angle on one side of
+/// a line and by another beyond takes circles to themselves, two points to one.
+std::vector<std::string> where_map_jumps(Prover& prover, const MapModel& map) {
+  std::vector<std::string> where;
+  for (const ex& next : map.next) {
+    for (const Polynomial& jump : prover.passed_jumps(prover.convert(next), true, true)) {
+      std::string condition =
+          fmt::format("on motions that do not cross {} = 0", prover.ring().text(jump));
+      if (std::ranges::find(where, condition) == where.end()) where.push_back(std::move(condition));
+    }
+  }
+  return where;
+}
+
+/// What a claim about the map and these functions is about; of a composition not what is said of
+/// its steps, in variables that stand for another point.
+std::vector<ex> expressions_of(const MapModel& map, const std::vector<Claim>& claims) {
+  Functions kept = map.base.casimirs;
+  kept.insert(kept.end(), map.base.integrals.begin(), map.base.integrals.end());
+  std::vector<ex> result = domain_of(map, kept);
+  if (map.steps.empty())
+    for (const Claim& claim : claims) append(result, claim.expressions);
+  return result;
+}
+
 }  // namespace
 
 std::vector<Claim> liouville_claims(const MapModel& map) {
@@ -298,9 +334,7 @@ std::vector<Claim> liouville_claims(const MapModel& map) {
     std::vector<Claim> hypotheses{poisson_claim(map)};
     for (const auto* list : {&map.base.casimirs, &map.base.integrals})
       for (const NamedExpression& f : *list) hypotheses.push_back(integral_claim(map, f, {}));
-    for (const Claim& hypothesis : hypotheses)
-      claim.expressions.insert(claim.expressions.end(), hypothesis.expressions.begin(),
-                               hypothesis.expressions.end());
+    append(claim.expressions, expressions_of(map, hypotheses));
     claim.decide = [&map, hypotheses, count = claim.decide](Prover& prover, Proof& proof) {
       std::vector<std::string> conditions;
       for (const Claim& hypothesis : hypotheses) {
@@ -318,8 +352,11 @@ std::vector<Claim> liouville_claims(const MapModel& map) {
       proof.reason = why_leaves_may_move(prover, map);
       if (!proof.reason.empty()) return;
       count(prover, proof);
+      if (proof.verdict != Verdict::proved) return;
       if (!levels_are_leaves(map.base)) conditions.emplace_back(kKeepsLeaf);
-      if (proof.verdict == Verdict::proved) add_conditions(proof, conditions);
+      const std::vector<std::string> jumps = where_map_jumps(prover, map);
+      conditions.insert(conditions.end(), jumps.begin(), jumps.end());
+      add_conditions(proof, conditions);
     };
   }
   return claims;

@@ -6,6 +6,7 @@
 #include "symbolic/discrete/map_claim_parts.hpp"
 #include "symbolic/discrete/modular_program.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/proof/run_claims.hpp"
@@ -19,6 +20,8 @@ using Inverse = std::vector<ex>;
 /// psi(phi(x)) = x, in the ring of the prover.
 bool is_proved_inverse(const MapModel& map, const Inverse& inverse) {
   Claim claim{ClaimKind::map, "inverse", false, [&map, &inverse](Prover& prover, Proof& proof) {
+                // Of arbitrary functions no point has values.
+                prover.take_as_inhabited(has_arbitrary_functions(map.base));
                 std::vector<Residual> residuals;
                 for (std::size_t i = 0; i < inverse.size(); ++i) {
                   const ex value = map.composed(inverse[i]) - map.base.variables[i];
@@ -68,21 +71,67 @@ class Screen {
   bool rational_ = false;
 };
 
-/// Variables one after the other: each from a next value that is a quotient of functions linear in
-/// it, the others in which are known.
+/// Arguments of functions that are next values are written as these: in p' = p - U(q + p) with
+/// q' = q + p stands U(q').
+class PutImages : public GiNaC::map_function {
+ public:
+  PutImages(const Inverse& next, const std::vector<GiNaC::symbol>& image)
+      : next_(next), image_(image) {}
+
+  ex operator()(const ex& e) override {
+    if (!GiNaC::is_a<GiNaC::function>(e)) return e.map(*this);
+    GiNaC::exvector operands;
+    for (const ex& argument : e) operands.push_back(put(argument));
+    return GiNaC::function(GiNaC::ex_to<GiNaC::function>(e).get_serial(), operands);
+  }
+
+ private:
+  ex put(const ex& argument) {
+    for (std::size_t k = 0; k < next_.size(); ++k)
+      if ((argument - next_[k]).expand().is_zero()) return image_[k];
+    return argument.map(*this);
+  }
+
+  const Inverse& next_;
+  const std::vector<GiNaC::symbol>& image_;
+};
+
+/// x_j' = f_j, and sums and differences of two of these: from p' = p + sin(q), q' = q + p + sin(q)
+/// comes q' - p' = q.
+std::vector<std::pair<ex, ex>> equations_of(const MapModel& map,
+                                            const std::vector<GiNaC::symbol>& image) {
+  const std::size_t n = image.size();
+  std::vector<std::pair<ex, ex>> result;
+  PutImages put(map.next, image);
+  for (std::size_t j = 0; j < n; ++j) result.emplace_back(image[j], put(map.next[j]));
+  constexpr std::size_t kFew = 4;
+  for (std::size_t j = 0; n <= kFew && j < n; ++j) {
+    for (std::size_t k = 0; k < j; ++k) {
+      for (const int sign : {-1, 1})
+        result.emplace_back(image[j] + sign * image[k],
+                            (result[j].second + sign * result[k].second).expand());
+    }
+  }
+  return result;
+}
+
+/// Variables one after the other: each from an equation of next values that is a quotient of
+/// functions linear in it, the others in which are known.
 std::optional<Inverse> solved_in_turn(const MapModel& map) {
   const auto& x = map.base.variables;
   const std::size_t n = x.size();
   std::vector<GiNaC::symbol> image;
   for (const GiNaC::symbol& variable : x) image.emplace_back(variable.get_name() + "'");
-  std::vector<bool> used(n, false), solved(n, false);
+  const std::vector<std::pair<ex, ex>> equations = equations_of(map, image);
+  std::vector<bool> used(equations.size(), false), solved(n, false);
   GiNaC::exmap known;
   for (std::size_t round = 0; round < n; ++round) {
     bool found = false;
-    for (std::size_t j = 0; j < n && !found; ++j) {
+    for (std::size_t j = 0; j < equations.size() && !found; ++j) {
       if (used[j]) continue;
-      const ex parts = normal_form(substituted(map.next[j], known, map.base.limits)).numer_denom();
-      const ex equation = (image[j] * parts.op(1) - parts.op(0)).expand();
+      const auto& [left, right] = equations[j];
+      const ex parts = normal_form(substituted(right, known, map.base.limits)).numer_denom();
+      const ex equation = (left * parts.op(1) - parts.op(0)).expand();
       std::vector<std::size_t> open;
       for (std::size_t i = 0; i < n; ++i)
         if (!solved[i] && equation.has(x[i])) open.push_back(i);
@@ -130,6 +179,7 @@ std::vector<MapSymmetry> reversals(const MapModel& map) {
   identity.parameters.assign(map.base.parameters.begin(), map.base.parameters.end());
   result.push_back(identity);
   for (std::size_t i = 0; i < identity.parameters.size(); ++i) {
+    if (function_name(map.base.parameters[i].get_name())) continue;  // U is no number
     result.push_back(identity);
     result.back().parameters[i] = -identity.parameters[i];
   }

@@ -7,6 +7,7 @@
 
 #include "symbolic/discrete/map_case.hpp"
 #include "symbolic/model.hpp"
+#include "symbolic/model/given_functions.hpp"
 
 namespace casimir {
 
@@ -58,6 +59,9 @@ struct MapModel {
  private:
   GiNaC::exmap image() const;
 };
+
+/// The map with functions that are given in the place of arbitrary ones.
+MapModel with_functions(const MapModel& map, const GivenFunctions& given);
 
 /// Reads every expression of the case file.
 /// \throws CaseError  with the place of what is wrong.

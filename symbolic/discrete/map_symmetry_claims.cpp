@@ -107,6 +107,8 @@ void judge_symmetry_on_constraints(Prover& prover, Proof& proof, const MapModel&
   if (proof.verdict != Verdict::proved)
     proof.reason =
         fmt::format("'{}' is not shown to be invertible on the constraints", symmetry.name);
+  else if (!is_affine(symmetry.variables, map.base.variables))
+    proof.evidence = kLocally;
 }
 
 /// What has to vanish on the constraints for map and symmetry to stay there.

@@ -1,5 +1,7 @@
 #include "symbolic/discrete/prove_map.hpp"
 
+#include <memory>
+
 #include "symbolic/discrete/map_claims.hpp"
 #include "symbolic/discrete/prove_candidate.hpp"
 #include "symbolic/proof/claims/claim_kinds.hpp"
@@ -8,32 +10,41 @@
 namespace casimir {
 namespace {
 
-std::vector<NamedExpression> read_candidates(const Model& model, const std::vector<Text>& texts) {
+std::vector<NamedExpression> read_candidates(const Model& model, const std::vector<Text>& texts,
+                                             const GivenFunctions& given) {
   std::vector<NamedExpression> result;
-  for (const Text& text : texts) result.push_back(model.parse_named(text));
+  for (const Text& text : texts) result.push_back(given.put(model.parse_named(text)));
   return result;
 }
 
-std::vector<Claim> candidate_claims(const MapModel& map, const Candidates& candidates) {
-  const std::vector<NamedExpression> on = read_candidates(map.base, candidates.on);
+/// \param written  the case that candidates are read in
+/// \param given  what `map` has for its arbitrary functions
+std::vector<Claim> candidate_claims(const Model& written, const MapModel& map,
+                                    const Candidates& candidates, const GivenFunctions& given) {
+  const std::vector<NamedExpression> on = read_candidates(written, candidates.on, given);
   std::vector<Claim> claims;
   for (const ClaimRow& row : claim_rows()) {
     if (!row.candidates) continue;
     const std::vector<Text>& texts = candidates.*row.candidates;
     require_bracket(row, map.base, texts);
-    for (const NamedExpression& f : read_candidates(map.base, texts))
+    for (const NamedExpression& f : read_candidates(written, texts, given))
       claims.push_back(row.make_of_map(map, f, on));
   }
   for (const Text& text : candidates.identities) {
-    Identity identity = map.base.parse_identity(text);
+    Identity identity = written.parse_identity(text);
+    for (GiNaC::ex& part : identity.domain) part = given.put(part);
+    given.put_into(identity.left, identity.domain);
+    given.put_into(identity.right, identity.domain);
     identity.on = on;
     claims.push_back(identity_claim(identity));
   }
   return claims;
 }
 
-std::vector<Claim> claims_about(const MapModel& map, const Candidates& candidates) {
-  if (!candidates.empty()) return candidate_claims(map, candidates);
+/// \param written, given  see `candidate_claims`
+std::vector<Claim> claims_about(const Model& written, const MapModel& map,
+                                const Candidates& candidates, const GivenFunctions& given) {
+  if (!candidates.empty()) return candidate_claims(written, map, candidates, given);
   std::vector<Claim> claims;
   for (const ClaimRow& row : claim_rows()) {
     if (!row.read_of_map) continue;
@@ -55,19 +66,32 @@ void shorten_conditions(Proof& proof) {
     proof.nonzero.emplace_back("the longer denominators of the map and the claim");
 }
 
-}  // namespace
-
-std::vector<Proof> prove_map(const MapModel& map, const Candidates& candidates,
-                             const std::function<bool(const Proof&)>& report) {
-  std::vector<Claim> claims = claims_about(map, candidates);
+std::vector<Claim> claims_about(const MapModel& map, const Candidates& candidates) {
+  std::vector<Claim> claims = claims_about(map.base, map, candidates, {map.base.limits, {}, {}});
   for (Claim& claim : claims) {
     claim.decide = [decide = std::move(claim.decide)](Prover& prover, Proof& proof) {
       decide(prover, proof);
       shorten_conditions(proof);
     };
   }
-  return decide_claims(map.base, claims,
-                       candidates.empty() ? Meaningless::undecided : Meaningless::thrown, report);
+  return claims;
+}
+
+}  // namespace
+
+std::vector<Proof> prove_map(const MapModel& map, const Candidates& candidates,
+                             const std::function<bool(const Proof&)>& report) {
+  const std::vector<Claim> claims = claims_about(map, candidates);
+  const Meaningless meaningless = candidates.empty() ? Meaningless::undecided : Meaningless::thrown;
+  if (!has_arbitrary_functions(map.base))
+    return decide_claims(map.base, claims, meaningless, report);
+  // The claims refer to their maps.
+  std::vector<std::unique_ptr<MapModel>> given_maps;
+  return decide_claims_for_all(
+      map.base, claims, meaningless, report, [&](const Model&, const GivenFunctions& given) {
+        given_maps.push_back(std::make_unique<MapModel>(with_functions(map, given)));
+        return claims_about(map.base, *given_maps.back(), candidates, given);
+      });
 }
 
 std::vector<Proof> pending(const MapModel& map, const Candidates& candidates) {

@@ -306,16 +306,24 @@ class Search {
     }
   }
 
-  void find_densities() {
-    watch_.begin("densities");
-    const std::size_t m = monomials_.size();
-    const std::vector<Row> space = solutions(m, [&](const Step& step) {
+  /// P with P(x') = sign * det Dx' * P(x): a measure has no orientation, which the map may reverse.
+  std::vector<Row> multiplied_by_jacobian(int sign) {
+    return solutions(monomials_.size(), [&](const Step& step) {
       Row row;
-      for (std::size_t i = 0; i < m; ++i)
-        row.push_back(
-            field_.subtract(step.after[i], field_.multiply(step.jacobian, step.before[i])));
+      for (std::size_t i = 0; i < monomials_.size(); ++i) {
+        const Element image = field_.multiply(step.jacobian, step.before[i]);
+        row.push_back(sign > 0 ? field_.subtract(step.after[i], image)
+                               : field_.add(step.after[i], image));
+      }
       return row;
     });
+  }
+
+  void find_densities() {
+    watch_.begin("densities");
+    std::vector<Row> space = multiplied_by_jacobian(1);
+    const std::vector<Row> reversed = multiplied_by_jacobian(-1);
+    space.insert(space.end(), reversed.begin(), reversed.end());
     result_.density_space = space.size();
     if (!result_.generic.empty()) return;
     std::vector<Polynomial> proved;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 
 namespace casimir {
@@ -22,5 +23,12 @@ enum class Meaningless {
 std::vector<Proof> decide_claims(const Model& model, const std::vector<Claim>& claims,
                                  Meaningless meaningless,
                                  const std::function<bool(const Proof&)>& report);
+
+/// The same of claims about the arbitrary functions of a case.
+/// \param make  the claims of the case with given functions, in the same order
+std::vector<Proof> decide_claims_for_all(
+    const Model& model, const std::vector<Claim>& claims, Meaningless meaningless,
+    const std::function<bool(const Proof&)>& report,
+    const std::function<std::vector<Claim>(const Model&, const GivenFunctions&)>& make);
 
 }  // namespace casimir

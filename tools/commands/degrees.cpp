@@ -48,7 +48,7 @@ std::string growth_words(const Growth& growth) {
     case Growth::Kind::unclear:
       break;
   }
-  return "not clear from so few iterates (--iterates)";
+  return "not clear from these iterates (--iterates computes more)";
 }
 
 void print_degrees(const std::string& name, const std::vector<int>& degrees, const Growth& growth,

@@ -151,6 +151,27 @@ TEST(Degrees, GrowthIsReadOffTheBeginning) {
   EXPECT_EQ(discrete::growth_of({6}).kind, discrete::Growth::Kind::unclear);
 }
 
+/// Monomial maps with complex eigenvalues, and shifts that square or cube after some steps: their
+/// degrees grow exponentially and stand still or fall in between.
+TEST(Degrees, GrowthThatIsUnsteadyIsNotClear) {
+  for (const std::vector<int>& degrees : {std::vector<int>{4, 4, 5, 12, 9, 22, 28, 31, 68, 67},
+                                          {4, 4, 5, 12, 9, 22, 28},
+                                          {4, 4, 5, 12, 9, 22, 28, 31},
+                                          {2, 2, 2, 2, 2, 4, 4, 4, 4, 4},
+                                          {3, 3, 3, 3, 3, 4, 4, 9, 9, 9, 9, 16, 16, 27},
+                                          {3, 4, 10, 12, 30}}) {
+    EXPECT_EQ(discrete::growth_of(degrees).kind, discrete::Growth::Kind::unclear) << degrees.size();
+  }
+}
+
+/// max(2^k, 3^l) of a block of three and one of four: 9 is the eighth, and not 3*4.
+TEST(Degrees, ARecurrenceSaysFromWhereItHolds) {
+  const auto growth =
+      discrete::growth_of({3, 3, 3, 4, 9, 9, 9, 9, 27, 27, 27, 27, 81, 81, 81, 81, 243, 243});
+  EXPECT_EQ(growth.recurrence, "d(n) = 3*d(n-4) for n > 8");
+  EXPECT_EQ(discrete::growth_of({3, 9, 27, 81, 243, 729}).recurrence, "d(n) = 3*d(n-1)");
+}
+
 TEST(Kahan, OfACubicHamiltonianKeepsAHamiltonianAndAMeasure) {
   const Model flow = model_of(
       "hamiltonian = \"p^2/2 + a*q^2 + b*q^3 + q*p^2\"\n[phase_space]\nvariables = [\"q\", "

@@ -89,6 +89,18 @@ TEST(SearchMap, SaysNoneOnlyWhereThereIsNone) {
 
 // x + 2147483659*y is kept, and no fraction below 2^30 is its coefficient: that is said.
 /// Up to a higher degree an orbit lies on products of the hypersurfaces of a lower one as well.
+/// The exchange of x and y keeps x + y and x*y dx dy, and also 1/(x - y) and dx dy: it reverses the
+/// orientation, which a measure does not have.
+TEST(SearchMap, DensitiesHaveNoOrientation) {
+  const MapModel exchange = map_of(kPhaseSpaceOfPlane + "[map]\nx = \"y\"\ny = \"x\"\n");
+  const auto found = discrete::search_map(exchange, 1, {});
+  // Of 1, x + y and x - y.
+  EXPECT_EQ(found.density_space, 3U);
+  EXPECT_EQ(found.densities.size(), 3U);
+  const MapModel reversing = map_of(kPhaseSpaceOfPlane + "[map]\nx = \"y\"\ny = \"x + y^2\"\n");
+  EXPECT_EQ(discrete::search_map(reversing, 2, {}).density_space, 1U);
+}
+
 TEST(SearchMap, FindsQuotientsOfLowerDegreesToo) {
   const MapSearch found = search_map(plane("[map]\nx = \"x^2\"\ny = \"x*y\"\n"), 2);
   ASSERT_EQ(found.integrals.size(), 1U);

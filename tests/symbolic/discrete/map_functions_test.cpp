@@ -1,0 +1,71 @@
+// Maps with arbitrary functions.
+#include <gtest/gtest.h>
+
+#include "symbolic/discrete/map_inverse.hpp"
+#include "tests/symbolic/discrete/maps.hpp"
+
+namespace casimir::test {
+namespace {
+
+/// A standard-like map q' = q + p, p' = p - U(q').
+MapModel standard_like(const std::string& claims, const std::string& kick = "p - U(q + p)") {
+  return map_of(
+      "[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n[functions]\nU = "
+      "[\"x\"]\n[map]\nq = \"q + p\"\np = \"" +
+      kick + "\"\n" + claims);
+}
+
+TEST(MapFunctions, WhatHoldsForEachOfThemIsProved) {
+  const MapModel map = standard_like(
+      "[[measure]]\ndensity = \"1\"\n[[symmetry]]\nname = \"S\"\nexpressions = { q = "
+      "\"q + p\", p = \"-p\" }\nreverses = true\n");
+  for (const auto& [kind, name] : {std::pair{ClaimKind::map, "Poisson map"},
+                                   {ClaimKind::measure, ""},
+                                   {ClaimKind::map, "S, reversal"}}) {
+    const Proof proof = proof_of(map, kind, name);
+    EXPECT_EQ(proof.verdict, Verdict::proved) << name << ": " << proof.reason;
+  }
+  EXPECT_TRUE(discrete::proved_inverse(map));
+}
+
+/// Written as steps of a leapfrog or as one; no symmetry is given.
+TEST(MapFunctions, MapsOfTheStandardKindHaveInverses) {
+  EXPECT_TRUE(discrete::proved_inverse(standard_like("")));
+  for (const char* map :
+       {"p = \"p + K*sin(q)\"\nq = \"q + p + K*sin(q)\"\n",
+        "q = \"q + p\"\np = \"p + K*sin(q + p)\"\n", "q = \"q + p + K*q^3\"\np = \"p + K*q^3\"\n"})
+    EXPECT_TRUE(discrete::proved_inverse(
+        map_of("[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n[parameters]\nK = "
+               "{}\n[map]\n" +
+               std::string(map))))
+        << map;
+  // Two points go to one.
+  EXPECT_FALSE(discrete::proved_inverse(
+      map_of(kPhaseSpaceOfPlane + "[map]\nx = \"x^2 + y\"\ny = \"x^2 - y\"\n")));
+}
+
+TEST(MapFunctions, WhatFailsForOneOfThemIsRefutedWithIt) {
+  const Proof integral = proof_of(standard_like("[integrals]\nF = \"p\"\n"), ClaimKind::integral);
+  EXPECT_EQ(integral.verdict, Verdict::refuted);
+  ASSERT_TRUE(integral.witness);
+  EXPECT_TRUE(std::ranges::any_of(integral.witness->point,
+                                  [](const auto& value) { return value.first == "U(x)"; }));
+  // An area is kept for U(q + p) and not for U(p).
+  EXPECT_EQ(verdict_of(standard_like("", "p - U(p)"), ClaimKind::map, "Poisson map"),
+            Verdict::refuted);
+}
+
+/// The same as two steps, each of which keeps areas for every U.
+TEST(MapFunctions, StepsKeepWhatEachOfThemKeeps) {
+  const MapModel steps = map_of(
+      "[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n[functions]\nU = "
+      "[\"x\"]\n[[map_step]]\nexpressions = { q = \"q + p\", p = \"p\" "
+      "}\n[[map_step]]\nexpressions "
+      "= { q = \"q\", p = \"p - U(q)\" }\n[[measure]]\ndensity = \"1\"\n[integrals]\nF = \"q\"\n");
+  EXPECT_EQ(verdict_of(steps, ClaimKind::map, "Poisson map"), Verdict::proved);
+  EXPECT_EQ(verdict_of(steps, ClaimKind::measure), Verdict::proved);
+  EXPECT_EQ(verdict_of(steps, ClaimKind::integral), Verdict::refuted);
+}
+
+}  // namespace
+}  // namespace casimir::test
