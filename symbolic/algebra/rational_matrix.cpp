@@ -1,6 +1,9 @@
 #include "symbolic/algebra/rational_matrix.hpp"
 
+#include <cln/integer.h>
 #include <flint/fmpq_mat.h>
+
+#include <algorithm>
 
 #include "symbolic/algebra/flint_conversion.hpp"
 
@@ -73,6 +76,30 @@ std::optional<std::vector<cln::cl_RA>> solve_unique(const RationalMatrix& equati
   std::vector<cln::cl_RA> solution;
   for (std::size_t i = 0; i < unknowns; ++i) solution.push_back(echelon.value(i, unknowns));
   return solution;
+}
+
+std::vector<std::vector<cln::cl_I>> null_space(const RationalMatrix& rows, std::size_t columns) {
+  const Echelon echelon(rows);
+  const std::vector<std::size_t> pivots = echelon.pivots();
+  std::vector<std::vector<cln::cl_I>> result;
+  for (std::size_t free = 0; free < columns; ++free) {
+    if (std::ranges::binary_search(pivots, free)) continue;
+    std::vector<cln::cl_RA> vector(columns, 0);
+    vector[free] = 1;
+    cln::cl_I denominator = 1, divisor = 0;
+    for (std::size_t row = 0; row < pivots.size(); ++row) {
+      vector[pivots[row]] = -echelon.value(row, free);
+      denominator = cln::lcm(denominator, cln::denominator(vector[pivots[row]]));
+    }
+    for (cln::cl_RA& entry : vector) {
+      entry = entry * denominator;
+      divisor = cln::gcd(divisor, cln::numerator(entry));
+    }
+    std::vector<cln::cl_I>& own = result.emplace_back();
+    for (const cln::cl_RA& entry : vector)
+      own.push_back(cln::exquo(cln::numerator(entry), divisor));
+  }
+  return result;
 }
 
 }  // namespace casimir

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cln/integer.h>
 #include <cln/rational.h>
 
 #include <optional>
@@ -18,5 +19,9 @@ std::optional<std::vector<cln::cl_RA>> solve_unique(const RationalMatrix& equati
 
 /// The first columns, from the left, that make a regular minor of full rank.
 std::vector<std::size_t> independent_columns(const RationalMatrix& rows);
+
+/// A basis of the vectors that all rows, of so many columns, are orthogonal to: whole numbers
+/// without a common divisor.
+std::vector<std::vector<cln::cl_I>> null_space(const RationalMatrix& rows, std::size_t columns);
 
 }  // namespace casimir

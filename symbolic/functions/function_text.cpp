@@ -3,10 +3,12 @@
 #include <cln/rational.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/expression/name_characters.hpp"
 
 namespace casimir::functions {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 std::string power_text(unsigned long exponent) {
   return exponent == 1 ? "" : "^" + std::to_string(exponent);
 }
+
+bool is_name(const std::string& text) { return std::ranges::all_of(text, is_name_part); }
 
 std::string bracketed(const std::string& text) { return "(" + text + ")"; }
 
@@ -65,7 +69,7 @@ std::string FunctionText::name(const Generator& g) const {
     case Kind::root:
       return g.order == 2 ? "sqrt(" + text(g.base) + ")" : power_of(g, 1);
     case Kind::inverse:
-      return "(1/(" + text(g.base) + "))";
+      return "(1/" + (is_name(text(g.base)) ? text(g.base) : bracketed(text(g.base))) + ")";
     case Kind::absolute:
       return "sqrt(" + text(g.base) + ")";
     case Kind::imaginary:

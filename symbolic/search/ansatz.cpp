@@ -76,11 +76,39 @@ Monomials monomials_of(const Problem& problem, const std::vector<int>& weights, 
   return result;
 }
 
+/// \throws TooMuchMemory
+Monomials limited_monomials(const Problem& problem, double most) {
+  std::optional<Monomials> list = monomials_within(problem.limits, problem.weights, most);
+  if (!list)
+    throw TooMuchMemory(
+        fmt::format("there are more than {:.3g} monomials within these degrees", most));
+  return std::move(*list);
+}
+
+/// How many bytes a monomial takes at least.
+double bytes_of_a_function(const Problem& problem) {
+  constexpr double kBytesOfAFunction = 100;
+  return static_cast<double>(problem.weights.size()) + kBytesOfAFunction;
+}
+
+/// The unknowns before relations are used.
+Monomials unknowns_of(const Problem& problem, const Watch& watch) {
+  if (problem.limits.empty()) return monomials_of(problem, problem.weights, problem.degree);
+  return limited_monomials(problem, watch.memory_limit / bytes_of_a_function(problem));
+}
+
 /// What the equations take, in bytes.
-double bytes_of(const Problem& problem) {
+double bytes_of(const Problem& problem, const Watch& watch) {
+  constexpr double kBytesOfAnEntry = 60;
+  if (!problem.limits.empty()) {
+    double terms = 0;
+    for (const auto& rates : problem.fields.rates)
+      for (const Polynomial& rate : rates) terms += static_cast<double>(rate.terms());
+    return static_cast<double>(unknowns_of(problem, watch).size()) *
+           (terms * kBytesOfAnEntry + bytes_of_a_function(problem));
+  }
   if (problem.fibre.empty())
     return bytes_of_equations(problem.fields, problem.weights, problem.degree);
-  constexpr double kBytesOfAnEntry = 60;
   std::vector<int> base;
   double terms = 0, components = 0;
   for (std::size_t i = 0; i < problem.weights.size(); ++i) {
@@ -94,13 +122,15 @@ double bytes_of(const Problem& problem) {
 
 /// No problem of this size is begun.
 void check_memory(const Problem& problem, const Watch& watch) {
-  const double bytes = bytes_of(problem);
+  const double bytes = bytes_of(problem, watch);
   if (bytes <= watch.memory_limit) return;
+  const double unknowns = problem.limits.empty()
+                              ? count_monomials(problem.weights, problem.degree)
+                              : static_cast<double>(unknowns_of(problem, watch).size());
   throw TooMuchMemory(fmt::format(
       "degree {} has {:.3g} unknowns, whose equations take about {:.3g} GB, more than the limit "
       "of {:.3g} GB",
-      problem.degree, count_monomials(problem.weights, problem.degree), bytes / 1e9,
-      watch.memory_limit / 1e9));
+      problem.degree, unknowns, bytes / 1e9, watch.memory_limit / 1e9));
 }
 
 /// By how much the fields raise the degree.
@@ -265,17 +295,26 @@ void choose_independent(const System& system, const Problem& problem, Ansatz& an
   }
 }
 
+/// Whether no term of a relation has a higher degree, by any of the limits, than its leading one.
+bool stays_within(const std::vector<DegreeLimit>& limits, const Polynomial& relation,
+                  const std::vector<std::size_t>& places,
+                  const std::vector<std::uint8_t>& leading) {
+  return std::ranges::all_of(limits, [&](const DegreeLimit& limit) {
+    return limit.of(relation, places) <= limit.of(leading.data());
+  });
+}
+
 }  // namespace
 
 Monomials visible_monomials(const System& system, const Problem& problem, const Watch& watch) {
-  constexpr std::size_t kBytesOfAFunction = 100;
-  const double functions = count_monomials(problem.weights, problem.degree);
-  const double bytes = functions * static_cast<double>(problem.weights.size() + kBytesOfAFunction);
-  if (bytes > watch.memory_limit)
-    throw TooMuchMemory(fmt::format("degree {} has {:.3g} unknowns, more than fit into {:.3g} GB",
-                                    problem.degree, functions, watch.memory_limit / 1e9));
+  if (problem.limits.empty()) {
+    const double functions = count_monomials(problem.weights, problem.degree);
+    if (functions * bytes_of_a_function(problem) > watch.memory_limit)
+      throw TooMuchMemory(fmt::format("degree {} has {:.3g} unknowns, more than fit into {:.3g} GB",
+                                      problem.degree, functions, watch.memory_limit / 1e9));
+  }
   const auto& places = problem.fields.places;
-  const Monomials all = monomials_of(problem, problem.weights, problem.degree);
+  const Monomials all = unknowns_of(problem, watch);
   Monomials result(places.size());
   for (std::size_t c = 0; c < all.size(); ++c) {
     bool silent = false;
@@ -293,12 +332,15 @@ Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& wa
   std::vector<Polynomial> level = problem.on;
   level.insert(level.end(), system.relations().begin(), system.relations().end());
   std::vector<std::vector<std::uint8_t>> leading;
-  for (const Polynomial& f : level) leading.push_back(leading_monomial(f, places, weights));
+  bool closed = true;
+  for (const Polynomial& f : level) {
+    leading.push_back(leading_monomial(f, places, weights));
+    closed = closed && stays_within(problem.limits, f, places, leading.back());
+  }
   // A defined function is an unknown itself, and not what it leads.
   const auto replaced = leading.end() - static_cast<std::ptrdiff_t>(system.defined().size());
-  Ansatz ansatz{without_multiples(monomials_of(problem, problem.weights, problem.degree),
-                                  {leading.begin(), replaced}),
-                {}};
+  Ansatz ansatz{without_multiples(unknowns_of(problem, watch), {leading.begin(), replaced}), {}};
+  ansatz.closed = closed;
   if (!system.defined().empty()) choose_independent(system, problem, ansatz);
   const int highest = highest_degree(system, problem, ansatz.monomials, weights);
   double cofactors = 0;

@@ -49,7 +49,9 @@ DarbouxEquations::DarbouxEquations(const Model& model, int degree)
       first_f_(system_.ring().size()),
       first_k_(first_f_ + monomials_.size()),
       ring_(room_for(system_, monomials_, cofactor_monomials_)) {
-  if (model.time || system_.atoms().size() > dimension_)
+  if (model.time)
+    throw ModelError("Darboux polynomials need equations of motion that do not depend on the time");
+  if (system_.atoms().size() > dimension_)
     throw ModelError(
         "Darboux polynomials need equations of motion that are rational in the variables");
   for (const Polynomial& rate : system_.flow()) field_.push_back(in_ring(rate, ring_));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "symbolic/search/integral_space.hpp"
+#include "symbolic/search/ansatz_degrees.hpp"
 #include "symbolic/search/search.hpp"
 
 namespace casimir::search {
@@ -22,7 +22,6 @@ class Finder {
   Problem integral_problem(std::vector<Generator> known);
 
  private:
-  std::vector<int> weights() const;
   std::vector<Generator> casimirs_as_needed();
   std::vector<Found> described(const std::vector<Generator>& generators,
                                const std::vector<Generator>& known, ClaimKind kind);
@@ -37,7 +36,7 @@ class Finder {
   const Watch& watch_;
   std::vector<NamedExpression> on_, known_;
   System system_;
-  std::vector<int> weights_;
+  AnsatzDegrees degrees_;
   Report report_;
   std::optional<std::string> level_reason_;  ///< why it is not known what vanishes on the level
 };

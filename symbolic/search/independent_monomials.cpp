@@ -13,18 +13,19 @@ namespace {
 
 class MonomialChoice {
  public:
-  MonomialChoice(const System& system, const Fields& fields, const Monomials& list,
+  MonomialChoice(const System& system, const Fields& fields, const MonomialList& list,
                  const Modulus& modulus, const Point& constants, Samples& samples,
                  const Watch& watch)
       : system_(system),
         fields_(fields),
-        list_(list),
+        list_(list.monomials),
+        limits_(list.limits),
         modulus_(modulus),
         constants_(constants),
         samples_(samples),
         watch_(watch),
         grading_(system, fields),
-        result_{Monomials(list.variables()), {}, true} {}
+        result_{Monomials(list_.variables()), {}, true} {}
 
   IndependentMonomials run();
 
@@ -33,6 +34,8 @@ class MonomialChoice {
     std::vector<std::uint32_t> kept, fresh;  ///< places in the list
   };
   bool follows(std::uint32_t c) const;
+  bool leads_within_limits(const std::vector<std::uint32_t>& columns,
+                           const std::vector<Residue>& combination, std::uint32_t lead) const;
   void settle(Part& part);
   bool is_proved(const std::vector<std::uint32_t>& columns,
                  const std::vector<Residue>& combination);
@@ -40,6 +43,7 @@ class MonomialChoice {
   const System& system_;
   const Fields& fields_;
   const Monomials& list_;
+  const std::vector<DegreeLimit>& limits_;
   const Modulus& modulus_;
   const Point& constants_;
   Samples& samples_;
@@ -55,6 +59,18 @@ bool MonomialChoice::follows(std::uint32_t c) const {
   return std::ranges::any_of(leading_, [&](std::uint32_t own) {
     for (std::size_t i = 0; i < list_.variables(); ++i)
       if (list_[own][i] > list_[c][i]) return false;
+    return true;
+  });
+}
+
+/// Whether no monomial of a combination is higher than its leading one by any of the limits.
+bool MonomialChoice::leads_within_limits(const std::vector<std::uint32_t>& columns,
+                                         const std::vector<Residue>& combination,
+                                         std::uint32_t lead) const {
+  return std::ranges::all_of(limits_, [&](const DegreeLimit& limit) {
+    const int highest = limit.of(list_[lead]);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (combination[k] != 0 && limit.of(list_[columns[k]]) > highest) return false;
     return true;
   });
 }
@@ -101,10 +117,10 @@ void MonomialChoice::settle(Part& part) {
       while (combination[lead] == 0) --lead;
       if (lead < part.kept.size()) continue;
       leaves[lead] = is_proved(columns, combination);
-      if (leaves[lead])
-        leading_.push_back(columns[lead]);
-      else
+      if (!leaves[lead])
         result_.complete = false;
+      else if (leads_within_limits(columns, combination, columns[lead]))
+        leading_.push_back(columns[lead]);
     }
   }
   for (std::size_t k = part.kept.size(); k < columns.size(); ++k)
@@ -150,7 +166,7 @@ void check_memory_of_values(std::size_t functions, const Watch& watch) {
 }
 
 IndependentMonomials independent_monomials(const System& system, const Fields& fields,
-                                           const Monomials& list, const Modulus& modulus,
+                                           const MonomialList& list, const Modulus& modulus,
                                            const Point& constants, Samples& samples,
                                            const Watch& watch) {
   return MonomialChoice(system, fields, list, modulus, constants, samples, watch).run();

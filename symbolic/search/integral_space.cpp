@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 #include "symbolic/search/independent_monomials.hpp"
@@ -78,7 +79,7 @@ class Run {
   Monomials ansatz_;
   std::vector<Relation> relations_;
   std::size_t multipliers_ = 0;
-  bool coprime_ = true, independent_ = true;
+  bool coprime_ = true, independent_ = true, closed_ = true;
   Point constants_;
   std::vector<Block> blocks_;
   std::vector<Echelon> echelons_;
@@ -96,8 +97,8 @@ class Run {
 
 void Run::take_ansatz_by_values() {
   const Monomials list = visible_monomials(system_, problem_, watch_);
-  IndependentMonomials chosen =
-      independent_monomials(system_, problem_.fields, list, modulus_, constants_, samples_, watch_);
+  IndependentMonomials chosen = independent_monomials(
+      system_, problem_.fields, {list, problem_.limits}, modulus_, constants_, samples_, watch_);
   ansatz_ = std::move(chosen.monomials);
   parts_ = std::move(chosen.parts);
   independent_ = chosen.complete;
@@ -113,6 +114,7 @@ void Run::take_ansatz() {
   relations_ = std::move(ansatz.relations);
   coprime_ = ansatz.coprime;
   independent_ = ansatz.independent;
+  closed_ = ansatz.closed;
   for (const Relation& relation : relations_) multipliers_ += relation.multipliers.size();
 }
 
@@ -382,8 +384,8 @@ Solution Run::run() {
   solution_.found_dimension = span_.dimension() - solution_.trivial;
   // Cofactors, of the functions of a level, are unknowns for one field only.
   const bool cofactors = relations_.empty() || problem_.fields.rates.size() == 1;
-  solution_.complete =
-      all_found && coprime_ && independent_ && cofactors && span_.dimension() == nullity_;
+  solution_.complete = all_found && coprime_ && independent_ && closed_ && cofactors &&
+                       span_.dimension() == nullity_;
   if (!all_found) {
     solution_.reason =
         "there seem to be further integrals, but their coefficients were not found as polynomials "
@@ -393,6 +395,10 @@ Solution Run::run() {
         "only cofactors of low degree were tried, and the functions of the level may need others";
   } else if (!independent_) {
     solution_.reason = "the declared functions are not independent of the others";
+  } else if (!closed_) {
+    solution_.reason =
+        "by a relation between the functions, or on the level, a monomial is equal to one that is "
+        "beyond a limit of the degrees";
   } else if (!cofactors) {
     solution_.reason =
         "the rates of Casimir functions are compared without the relations between roots, sines "
@@ -413,11 +419,32 @@ int fibre_degree(const std::uint8_t* exponents, const std::vector<bool>& fibre) 
   return sum;
 }
 
+namespace {
+
+/// Keeps the products within the limits of a problem.
+void remove_beyond(std::vector<std::vector<int>>& products,
+                   const std::vector<Generator>& generators, const Problem& problem) {
+  for (const DegreeLimit& limit : problem.limits) {
+    std::vector<int> own;
+    for (const Generator& g : generators)
+      own.push_back(limit.of(g.function, problem.fields.places));
+    std::erase_if(products, [&](const std::vector<int>& exponents) {
+      return std::inner_product(own.begin(), own.end(), exponents.begin(), 0) > limit.degree;
+    });
+  }
+}
+
+}  // namespace
+
 std::vector<std::vector<int>> known_products(const std::vector<Generator>& generators,
                                              const Problem& problem, int degree, std::size_t old) {
   std::vector<int> degrees;
   for (const Generator& g : generators) degrees.push_back(g.degree);
-  if (problem.fibre.empty()) return products_up_to(degrees, degree, old);
+  if (problem.fibre.empty()) {
+    std::vector<std::vector<int>> products = products_up_to(degrees, degree, old);
+    remove_beyond(products, generators, problem);
+    return products;
+  }
   // One tensor, times a product of functions.
   std::vector<bool> is_tensor;
   for (const Generator& g : generators) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/search/degree_limit.hpp"
 #include "symbolic/search/modular/echelon.hpp"
 #include "symbolic/search/modular/linear_map.hpp"
 #include "symbolic/search/modular/span.hpp"
@@ -20,8 +21,11 @@ struct Generator {
 /// What a search has to solve.
 struct Problem {
   Fields fields;
-  std::vector<int> weights;      ///< one for each place
-  int degree = 0;                ///< highest, weighted
+  std::vector<int> weights;  ///< one for each place; positive
+  int degree = 0;            ///< highest, weighted
+  /// Where there are any, the unknowns are the monomials within all of them, and none has a degree
+  /// above `degree`.
+  std::vector<DegreeLimit> limits{};
   std::vector<Polynomial> on;    ///< the level, if any
   std::vector<Generator> known;  ///< that are not to be found again, nor what they generate
   /// Which places are those of a tensor's components: where there are any, only functions that are
@@ -42,6 +46,8 @@ struct Ansatz {
   bool coprime = true;
   /// Whether the monomials are linearly independent as functions.
   bool independent = true;
+  /// Whether what the relations put in the place of a monomial is within the limits as well.
+  bool closed = true;
 };
 
 /// \throws TooMuchMemory

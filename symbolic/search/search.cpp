@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "symbolic/functions/short_text.hpp"
 #include "symbolic/proof/thin_domain.hpp"
@@ -41,38 +40,10 @@ Finder::Finder(const Model& model, const Request& request, const Watch& watch)
       watch_(watch),
       on_(read(model, request.on)),
       known_(request.known),
-      system_(model, read(model, request.functions), values_of(on_, known_)),
-      weights_(weights()) {}
-
-std::vector<int> Finder::weights() const {
-  std::vector<std::string> names;
-  for (const std::size_t atom : system_.atoms()) names.push_back(system_.name(atom));
-  std::vector<int> result(names.size(), 1);
-  for (const auto& [name, weight] : request_.weights) {
-    auto place = std::find(names.begin(), names.end(), name.value);
-    // A declared function may be written in another way than the ring writes it.
-    if (place == names.end() && name.value.find_first_of("()/^*") != std::string::npos)
-      place = std::find(names.begin(), names.end(), system_.text_of(model_.parse(name)));
-    if (place == names.end()) place = std::find(names.begin(), names.end(), "(" + name.value + ")");
-    if (place == names.end()) {
-      throw name.error(fmt::format("'{}' is not a variable of the ansatz", printable(name.value)),
-                       0, suggest_or_list(name.value, names));
-    }
-    int value = 0;
-    const char* end = weight.value.data() + weight.value.size();
-    const auto [stop, problem] = std::from_chars(weight.value.data(), end, value);
-    if (problem != std::errc() || stop != end || value < 1 || value > 1000)
-      throw weight.error("a weight is a whole number from 1 to 1000");
-    result[static_cast<std::size_t>(place - names.begin())] = value;
-  }
-  constexpr int kHighestPower = 250;
-  for (const int weight : result) {
-    if (request_.degree / weight > kHighestPower)
-      throw ModelError(fmt::format("the degree {} is beyond {}, the largest that is searched",
-                                   request_.degree, kHighestPower * weight));
-  }
-  return result;
-}
+      system_(model, read(model, request.functions), values_of(on_, known_),
+              request.denominators && on_.empty() ? System::Denominators::atoms
+                                                  : System::Denominators::multiplied_out),
+      degrees_(system_, request) {}
 
 /// The polynomial Casimir functions, degree by degree, until there are as many independent ones as
 /// the rank of the bracket leaves room for.
@@ -80,7 +51,6 @@ std::vector<Generator> Finder::casimirs_as_needed() {
   if (!model_.poisson || request_.casimirs_are_integrals) return {};
   Problem problem;
   problem.fields = {system_.atoms(), system_.coordinate_flows(), system_.plain_coordinate_flows()};
-  problem.weights = weights_;
   // The time and functions of it alone would be some of them: they are numbers here. Functions of
   // Casimir functions are answers, and coefficients of others.
   for (std::size_t k = problem.fields.places.size(); k-- > model_.variables.size();) {
@@ -92,10 +62,10 @@ std::vector<Generator> Finder::casimirs_as_needed() {
     const auto place = static_cast<std::ptrdiff_t>(k);
     problem.fields.places.erase(problem.fields.places.begin() + place);
     for (auto& row : problem.fields.rates) row.erase(row.begin() + place);
-    problem.weights.erase(problem.weights.begin() + place);
     // At points where a number of these has other values, they would be no numbers.
     problem.fields.plain.clear();
   }
+  degrees_.set(problem);
   // The rank of the bracket at a random point is a lower bound of the generic one.
   std::size_t rank = 0;
   {
@@ -114,7 +84,6 @@ std::vector<Generator> Finder::casimirs_as_needed() {
   }
   std::vector<Polynomial> functions;
   if (request_.casimirs) {
-    problem.degree = request_.degree;
     watch_.begin("Casimir functions");
     Solution solution = solve(system_, problem, watch_);
     // Nothing but the constants is annihilated by all fields of the coordinates.
@@ -127,7 +96,8 @@ std::vector<Generator> Finder::casimirs_as_needed() {
     return solution.found;
   }
   const std::size_t room = model_.variables.size() - rank;
-  for (int degree = 1; degree <= request_.degree; ++degree) {
+  const int highest = problem.degree;
+  for (int degree = degrees_.is_limited() ? highest : 1; degree <= highest; ++degree) {
     if (rank_of_gradients(system_, functions) >= room) break;
     problem.degree = degree;
     watch_.begin(fmt::format("Casimir functions of degree {}", degree));
@@ -143,8 +113,7 @@ std::vector<Generator> Finder::casimirs_as_needed() {
 Problem Finder::integral_problem(std::vector<Generator> known) {
   Problem problem;
   problem.fields = {system_.atoms(), {system_.flow()}, {system_.plain_flow()}};
-  problem.weights = weights_;
-  problem.degree = request_.degree;
+  degrees_.set(problem);
   problem.known = std::move(known);
   for (const NamedExpression& f : on_) {
     Polynomial numerator = system_.prover().ring().numerator(system_.prover().convert(f.value));
@@ -222,7 +191,7 @@ std::vector<Found> Finder::described(const std::vector<Generator>& generators,
     const Polynomial function = ring.reduced(g.function);
     found.value = system_.expression(function);
     found.text = short_text(ring, function, system_.is_constant());
-    found.degree = g.degree;
+    found.degree = degrees_.degree_of(g.function);
     functions.push_back(g.function);
     const std::size_t next = rank_of_gradients(system_, functions);
     found.independent = next > rank;
@@ -247,6 +216,8 @@ Report Finder::run() {
                                    : ClaimKind::conditional;
   report_.generic = system_.generic_parameters();
   report_.functions = system_.names_of_functions();
+  report_.weights = degrees_.named_weights();
+  report_.degree_in = degrees_.named_limits();
   std::vector<Generator> casimirs = casimirs_as_needed();
   if (request_.casimirs) {
     report_.found = described(casimirs, {}, ClaimKind::casimir);
@@ -254,12 +225,12 @@ Report Finder::run() {
     report_.casimirs = described(casimirs, {}, ClaimKind::casimir);
     std::vector<Generator> known = casimirs;
     if (const std::optional<Polynomial> h = system_.hamiltonian()) {
-      known.push_back({*h, weighted_degree(*h, system_.atoms(), weights_)});
+      known.push_back({*h, degrees_.order_of(*h)});
       report_.hamiltonian = true;
     }
     for (const NamedExpression& f : known_) {
       const Polynomial p = system_.prover().ring().reduced(system_.prover().convert(f.value));
-      if (system_.in_atoms(p)) known.push_back({p, weighted_degree(p, system_.atoms(), weights_)});
+      if (system_.in_atoms(p)) known.push_back({p, degrees_.order_of(p)});
     }
     std::erase_if(known, [](const Generator& g) { return g.degree == 0; });
     const Problem problem = integral_problem(known);
@@ -278,7 +249,8 @@ Report Finder::run() {
 }
 
 Report find_integrals(const Model& model, const Request& request, const Watch& watch) {
-  if (request.degree < 0) throw ModelError("the degree of a search is not negative");
+  if (request.degree < 0 && request.degree_in.empty())
+    throw ModelError("the degree of a search is not negative");
   if (request.casimirs && !model.poisson)
     throw ModelError("a Casimir function needs a bracket, which this case does not have");
   return Finder(model, request, watch).run();

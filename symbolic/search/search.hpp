@@ -10,14 +10,29 @@
 
 namespace casimir::search {
 
+/// A limit of the degree in some functions of the ansatz, each of which counts 1.
+struct DegreeIn {
+  /// Names of the ansatz, or `momenta`, `coordinates` (of a canonical case) and `rest`: what no
+  /// other limit names.
+  std::vector<Text> names;
+  Text degree;  ///< a whole number, not negative
+};
+
 /// What a user asks for.
 struct Request {
-  int degree = 0;                                ///< highest, weighted
+  /// Highest, weighted; negative where `degree_in` alone limits the degrees.
+  int degree = 0;
   bool casimirs = false;                         ///< Casimir functions instead of integrals
   std::vector<Text> on;                          ///< the common zero level of these
   std::vector<Text> functions;                   ///< that the ansatz may use besides the variables
   std::vector<std::pair<Text, Text>> weights{};  ///< name and weight; 1 for the others
   std::vector<NamedExpression> known{};          ///< integrals that are not to be found again
+  std::vector<DegreeIn> degree_in{};             ///< further limits
+  /// The weights by which the equations of motion are quasi-homogeneous, instead of `weights`.
+  bool own_weights = false;
+  /// Inverses that the equations of motion or the Hamiltonian contain are functions of the ansatz.
+  /// On a level they are not, where cofactors are looked for with polynomials.
+  bool denominators = false;
   /// Casimir functions are integrals like others: none are looked for first and taken as known.
   bool casimirs_are_integrals = false;
 };
@@ -44,6 +59,10 @@ struct Report {
   /// What is found is a polynomial in, beside the variables and the time: functions of the
   /// equations, as they are computed with, and those that were asked for.
   std::vector<std::string> functions;
+  /// Where they are not all 1: of all functions of the ansatz, and the time.
+  std::vector<std::pair<std::string, int>> weights;
+  /// The limits beside the degree, with the names that they are of.
+  std::vector<std::pair<std::vector<std::string>, int>> degree_in;
   std::size_t unknowns = 0, equations = 0, blocks = 0, largest_block = 0;
 };
 

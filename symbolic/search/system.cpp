@@ -65,9 +65,10 @@ std::unique_ptr<Model> with_symbols_for(const Model& model,
 
 std::vector<NamedExpression> System::with_own_functions(const Model& model,
                                                         std::vector<NamedExpression> functions,
-                                                        const std::vector<GiNaC::ex>& others) {
+                                                        const std::vector<GiNaC::ex>& others,
+                                                        Denominators denominators) {
   if (functions.empty()) return functions;
-  const System plain(model, {}, others);
+  const System plain(model, {}, others, denominators);
   for (const std::size_t place : plain.places_of_functions()) {
     const GiNaC::ex value = plain.functions().variable_value(place);
     if (std::ranges::none_of(functions,
@@ -78,11 +79,12 @@ std::vector<NamedExpression> System::with_own_functions(const Model& model,
 }
 
 System::System(const Model& model, const std::vector<NamedExpression>& functions,
-               const std::vector<GiNaC::ex>& others)
-    : System(model, with_own_functions(model, functions, others), others, Declared{}) {}
+               const std::vector<GiNaC::ex>& others, Denominators denominators)
+    : System(model, with_own_functions(model, functions, others, denominators), others,
+             denominators, Declared{}) {}
 
 System::System(const Model& model, const std::vector<NamedExpression>& functions,
-               const std::vector<GiNaC::ex>& others, Declared) try
+               const std::vector<GiNaC::ex>& others, Denominators denominators, Declared) try
     : meter_(std::in_place, model.limits),
       extended_(with_symbols_for(model, functions, others)),
       prover_(extended_ ? *extended_ : model, values_of(functions, others)) {
@@ -106,7 +108,7 @@ System::System(const Model& model, const std::vector<NamedExpression>& functions
   for (std::size_t place = dimension + model.parameters.size();
        place < dimension + this->model().parameters.size(); ++place)
     constant_[place] = false;
-  collect_atoms(functions);
+  collect_atoms(functions, denominators);
   std::vector<Polynomial> rates = prover_.field();
   if (model.time) rates.push_back(ring().constant(1));
   flow_ = of_atoms(rates);
@@ -151,6 +153,13 @@ void System::need(const Polynomial& p) {
     if (p.uses(g) && !constant_[g] && !contains(atoms_, g)) atoms_.push_back(g);
 }
 
+/// The inverses that p contains.
+void System::need_denominators(const Polynomial& p) {
+  const std::size_t symbols = prover_.ring().symbols().size();
+  for (std::size_t g = symbols; g < ring().size(); ++g)
+    if (p.uses(g) && bonds_[g - symbols].kind == Bond::Kind::inverse) need(ring().variable(g));
+}
+
 /// All functions that the rates of the atoms are polynomials in once denominators are multiplied
 /// out, and that these are bound to.
 void System::need_all(const std::vector<Polynomial>& rates) {
@@ -165,7 +174,8 @@ void System::need_all(const std::vector<Polynomial>& rates) {
 
 /// The coordinates and all functions that their rates, or the declared functions, are polynomials
 /// in once denominators are multiplied out; and the relations between them.
-void System::collect_atoms(const std::vector<NamedExpression>& declared) {
+void System::collect_atoms(const std::vector<NamedExpression>& declared,
+                           Denominators denominators) {
   atoms_ = moving_;
   std::size_t place = model().variables.size() + model().parameters.size();
   for (const NamedExpression& f : declared) {
@@ -178,6 +188,10 @@ void System::collect_atoms(const std::vector<NamedExpression>& declared) {
   }
   for (std::size_t k = defined_.size(); k-- > 0;) defined_[k].place = --place;
   std::vector<Polynomial> rates = prover_.field();
+  if (denominators == Denominators::atoms) {
+    for (const Polynomial& rate : rates) need_denominators(rate);
+    if (model().hamiltonian) need_denominators(prover_.convert(*model().hamiltonian));
+  }
   if (model().time) rates.push_back(ring().constant(1));
   need_all(rates);
   silent_.assign(ring().size(), false);

@@ -23,12 +23,17 @@ using Point = std::vector<Residue>;
 /// changes the speed of its motion and no integral.
 class System {
  public:
+  /// What becomes of the denominators of the equations of motion and the Hamiltonian: they are
+  /// multiplied out, or their inverses are atoms.
+  enum class Denominators { multiplied_out, atoms };
+
   /// \param functions  more functions of the variables that the ansatz may use; those that it has
   ///     without them stay in it, though the ring make them of finer ones.
   /// \param others  further expressions that will be converted.
   /// \throws CaseError, ModelError
   System(const Model& model, const std::vector<NamedExpression>& functions,
-         const std::vector<GiNaC::ex>& others);
+         const std::vector<GiNaC::ex>& others,
+         Denominators denominators = Denominators::multiplied_out);
 
   const Model& model() const { return prover_.model(); }
   Prover& prover() { return prover_; }
@@ -107,11 +112,12 @@ class System {
   /// All functions are declared.
   struct Declared {};
   System(const Model& model, const std::vector<NamedExpression>& functions,
-         const std::vector<GiNaC::ex>& others, Declared);
+         const std::vector<GiNaC::ex>& others, Denominators denominators, Declared);
   /// The declared functions, and those that the ansatz has without them.
   static std::vector<NamedExpression> with_own_functions(const Model& model,
                                                          std::vector<NamedExpression> functions,
-                                                         const std::vector<GiNaC::ex>& others);
+                                                         const std::vector<GiNaC::ex>& others,
+                                                         Denominators denominators);
   std::vector<std::size_t> places_of_functions() const;
 
   /// How a generator of the ring is bound to earlier variables.
@@ -121,8 +127,9 @@ class System {
     unsigned long order = 1;  ///< of a root
   };
   Bond bond_of(std::size_t place) const;
-  void collect_atoms(const std::vector<NamedExpression>& functions);
+  void collect_atoms(const std::vector<NamedExpression>& functions, Denominators denominators);
   void need(const Polynomial& p);
+  void need_denominators(const Polynomial& p);
   void need_all(const std::vector<Polynomial>& rates);
   /// The derivative along the i-th of the coordinates and the time.
   Polynomial slope(const Polynomial& p, std::size_t i) const;

@@ -43,7 +43,7 @@ struct SearchArguments {
   bool orbits = false, conformal = false;
   bool fields = false, bivectors = false, forms = false, hamiltonian = false, bihamiltonian = false;
   bool separation = false;
-  std::vector<std::string> on, functions, weights, free;
+  std::vector<std::string> on, functions, weights, degree_in, free;
   std::string roots;   ///< a polynomial, or empty
   std::string output;  ///< of the case with the map to separated variables
 };
@@ -57,6 +57,11 @@ int kinds_of(const SearchArguments& o) {
 
 bool is_structure(const SearchArguments& o) {
   return o.fields || o.bivectors || o.forms || o.tensors > 0 || o.hamiltonian || o.bihamiltonian;
+}
+
+/// Whether integrals are limited in a way that other searches do not know.
+bool is_narrow(const SearchArguments& o) {
+  return !o.on.empty() || !o.functions.empty() || !o.weights.empty() || !o.degree_in.empty();
 }
 
 /// See the other one.
@@ -102,8 +107,7 @@ int answer(const SearchArguments& options, const Model& model, const Report& rep
 /// Of a map: what `search` asks of flows beyond the degree has no meaning there.
 int search_map_case(const MapCaseFile& file, const SearchArguments& options) {
   if (!options.in.empty() || options.casimirs || options.darboux || options.rational ||
-      is_structure(options) || options.separation || !options.on.empty() ||
-      !options.functions.empty() || !options.weights.empty() || !options.free.empty())
+      is_structure(options) || options.separation || is_narrow(options) || !options.free.empty())
     throw UsageError("a search of a map takes --degree and --param only");
   const MapModel map = map_model_of(file, options.common.parameter_values());
   SearchWatch watch(options.common, map.base.name, memory_allowed().value_or(2e9));
@@ -182,6 +186,18 @@ int search_separation(const SearchArguments& options, const Model& model, Search
   return verdict == Verdict::proved && (!file || writes) ? kDone : kUndecided;
 }
 
+search::Request request_of(const SearchArguments& options) {
+  search::Request request;
+  request.degree = options.degree;
+  request.casimirs = options.casimirs;
+  request.on = texts_of(options.on, "--on");
+  request.functions = texts_of(options.functions, "--functions");
+  request.degree_in = degree_in_of(options.degree_in);
+  request.own_weights = options.weights == std::vector<std::string>{"auto"};
+  if (!request.own_weights) request.weights = weights_of(options.weights);
+  return request;
+}
+
 int search_case(const SearchArguments& options) {
   const AnyCaseFile file = load_any_case(options.case_name, options.common.limits);
   if (const auto* map = std::get_if<MapCaseFile>(&file)) return search_map_case(*map, options);
@@ -204,9 +220,8 @@ int search_case(const SearchArguments& options) {
     return answer(options, model, search::find_darboux(model, options.degree, watch.watch()),
                   watch);
   }
-  const search::Request request{options.degree, options.casimirs, texts_of(options.on, "--on"),
-                                texts_of(options.functions, "--functions"),
-                                weights_of(options.weights)};
+  search::Request request = request_of(options);
+  request.denominators = options.free.empty();
   if (options.free.empty())
     return answer(options, model, search::find_integrals(model, request, watch.watch()), watch);
   const std::vector<Text> free = texts_of(options.free, "--free", true);
@@ -219,11 +234,10 @@ int search(const SearchArguments& options) {
     throw UsageError(
         "of --casimirs, --darboux, --rational, --fields, --bivectors, --tensors (with --forms), "
         "--hamiltonian, --bihamiltonian and --separation only one is possible");
-  if (is_structure(options) && (!options.free.empty() || !options.on.empty() ||
-                                !options.functions.empty() || !options.weights.empty()))
+  if (is_structure(options) && (!options.free.empty() || is_narrow(options)))
     throw UsageError("a search for tensors or brackets takes --degree and --param only");
-  if (options.separation &&
-      (!options.free.empty() || !options.functions.empty() || !options.weights.empty()))
+  if (options.separation && (!options.free.empty() || !options.functions.empty() ||
+                             !options.weights.empty() || !options.degree_in.empty()))
     throw UsageError("--separation takes --degree, --on, --roots and --param only");
   if (!options.roots.empty() && !options.separation)
     throw UsageError("--roots goes with --separation");
@@ -233,17 +247,20 @@ int search(const SearchArguments& options) {
   const bool tensors = options.fields || options.bivectors || options.forms || options.tensors > 0;
   if (options.conformal && (!tensors || options.orbits))
     throw UsageError("--conformal goes with --fields, --bivectors, --forms or --tensors");
-  if (options.degree < 0 && options.roots.empty()) throw UsageError("--degree is required");
-  if (!is_structure(options) && !options.separation && options.degree < 1)
+  if (options.degree < 0 && options.roots.empty() && options.degree_in.empty())
+    throw UsageError("--degree is required");
+  const bool has_degree = options.degree >= 0 || options.degree_in.empty();
+  if (!is_structure(options) && !options.separation && has_degree && options.degree < 1)
     throw UsageError("--degree has to be 1 at least");
   if (options.casimirs && !options.on.empty())
     throw UsageError("--casimirs and --on do not go together");
   if (options.casimirs && !options.free.empty())
     throw UsageError("--casimirs and --free do not go together");
-  const bool narrow = !options.on.empty() || !options.functions.empty() || !options.weights.empty();
-  if (options.darboux && narrow)
+  if (!options.free.empty() && options.weights == std::vector<std::string>{"auto"})
+    throw UsageError("--free takes weights that are numbers");
+  if (options.darboux && is_narrow(options))
     throw UsageError("--darboux takes --degree, --free and --param only");
-  if (options.rational && (narrow || !options.free.empty()))
+  if (options.rational && (is_narrow(options) || !options.free.empty()))
     throw UsageError("--rational takes --degree and --param only");
   return with_search_errors(options.common, options.case_name,
                             [&] { return search_case(options); });
@@ -307,11 +324,13 @@ void register_search(CLI::App& program, Action& action) {
       ->type_name("EXPR");
   command
       ->add_option("--functions", options->functions,
-                   "A further function that the integrals may be polynomials in, such as \"1/g3\" "
-                   "(repeatable)")
+                   "A further function that the integrals may be polynomials in, such as \"1/g3\", "
+                   "beside those of the equations (repeatable)")
       ->allow_extra_args(false)
       ->type_name("EXPR");
-  add_weights(*command, options->weights);
+  add_weights(*command, options->weights,
+              "; auto: those by which the equations of motion are quasi-homogeneous");
+  add_degree_in(*command, options->degree_in);
   command
       ->add_option(
           "--free", options->free,

@@ -393,6 +393,8 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
     leave_open(fmt::format("'{}' is taken as a parameter of its own", bound));
   if (!ansatz.coprime || !ansatz.independent)
     leave_open("only cofactors of low degree were tried, and the functions may need others");
+  if (!ansatz.closed)
+    leave_open("by a relation, a monomial is equal to one that is beyond a limit of the degrees");
   const std::vector<std::size_t> inside = inside_functions(finder_.system(), free);
   for (const std::size_t place : inside) {
     leave_open(fmt::format("'{}' is inside a function, of which only simple values were tried",
@@ -436,7 +438,8 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
 
 ConditionReport find_conditions(const Model& model, const Request& request,
                                 const std::vector<Text>& free, const Watch& watch) {
-  if (request.degree < 0) throw ModelError("the degree of a search is not negative");
+  if (request.degree < 0 && request.degree_in.empty())
+    throw ModelError("the degree of a search is not negative");
   return ConditionFinder(model, request, watch).run(free_places(model, free));
 }
 

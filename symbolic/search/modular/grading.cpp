@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/search/modular/linear_map.hpp"
 
 namespace casimir::search {
@@ -48,9 +49,9 @@ std::vector<bool> functions_of(const System& system, const Fields& fields) {
 
 Grading::Grading(const System& system, const Fields& fields)
     : system_(system), places_(fields.places) {
-  const std::vector<bool> used = functions_of(system, fields);
-  for (std::size_t place = 0; place < used.size(); ++place) {
-    if (!used[place]) continue;
+  used_ = functions_of(system, fields);
+  for (std::size_t place = 0; place < used_.size(); ++place) {
+    if (!used_[place]) continue;
     if (const std::optional<Polynomial> relation = system.relation_of(place)) relate(*relation);
   }
   for (const auto& rates : fields.plain) relate_field(places_, rates);
@@ -128,6 +129,29 @@ std::vector<std::int64_t> Grading::part_of(const std::uint8_t* exponents) const 
   for (const Exponents& row : rows_) {
     const std::size_t pivot = pivot_of(row);
     subtract(result, floor_quotient(result[pivot], row[pivot]), row);
+  }
+  return result;
+}
+
+std::vector<std::vector<std::int64_t>> Grading::weights() const {
+  if (is_trivial_) return {};
+  RationalMatrix rows;
+  for (const Exponents& row : rows_) rows.emplace_back(row.begin(), row.end());
+  // What nothing uses has no weight.
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    if (used_[i]) continue;
+    rows.emplace_back(used_.size(), 0);
+    rows.back()[i] = 1;
+  }
+  std::vector<std::vector<std::int64_t>> result;
+  for (const std::vector<cln::cl_I>& vector : null_space(rows, used_.size())) {
+    std::vector<std::int64_t> own;
+    for (const std::size_t place : places_) {
+      constexpr std::uint32_t kMostBits = 40;
+      if (cln::integer_length(vector[place]) > kMostBits) return {};
+      own.push_back(cln::cl_I_to_long(vector[place]));
+    }
+    result.push_back(std::move(own));
   }
   return result;
 }

@@ -22,6 +22,10 @@ class Grading {
   /// \param exponents  one for each of the fields' places
   std::vector<std::int64_t> part_of(const std::uint8_t* exponents) const;
 
+  /// A basis of the weights by which all monomials of a part have one weight: whole numbers without
+  /// a common divisor, one for each of the fields' places.
+  std::vector<std::vector<std::int64_t>> weights() const;
+
  private:
   using Exponents = std::vector<std::int64_t>;
   void relate(const Polynomial& p);
@@ -31,6 +35,7 @@ class Grading {
 
   const System& system_;
   std::vector<std::size_t> places_;
+  std::vector<bool> used_;       ///< by the fields and the relations
   std::vector<Exponents> rows_;  ///< an echelon form of the lattice, by ascending pivots
   bool is_trivial_ = false;      ///< all is one part: numbers became too large
 };

@@ -184,7 +184,7 @@ TEST(IndependentMonomials, LeaveOutWhatIsACombinationOfOthers) {
   search::Samples samples(system, fields, modulus, 2);
   const auto list = search::all_monomials(std::vector<int>(system.atoms().size(), 1), 2);
   const auto chosen =
-      search::independent_monomials(system, fields, list, modulus, constants, samples, {});
+      search::independent_monomials(system, fields, {list, {}}, modulus, constants, samples, {});
   EXPECT_TRUE(chosen.complete);
   EXPECT_EQ(list.size() - chosen.monomials.size(), 3U + 1U);
 }

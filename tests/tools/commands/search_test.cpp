@@ -110,6 +110,37 @@ TEST(Search, HesssRelationIsADarbouxPolynomial) {
   EXPECT_EQ(found.at("invariant_relations")[0].at("expression"), "M3");
 }
 
+/// As the literature states results: by degrees in the momenta and in the rest, or by the weights
+/// of the equations, with the functions of the equations, which are named.
+TEST(Search, GoesByDegreesInPartsAndByTheWeightsOfTheEquations) {
+  const Folder folder;
+  const std::string cubic = folder.write(
+      "cubic.toml",
+      "hamiltonian = \"(p1^2 + p2^2)/2 + q1^2*q2 + 16/3*q2^3\"\n[phase_space]\nvariables = "
+      "[\"q1\", \"q2\", \"p1\", \"p2\"]\ncanonical = true\n");
+  const std::vector<std::string> command{"search",    cubic,         "--degree-in",
+                                         "momenta=4", "--degree-in", "rest=6"};
+  const Json found = answered(folder, command);
+  EXPECT_EQ(found.at("integrals").size(), 1u);
+  EXPECT_TRUE(found.at("degree").is_null());
+  EXPECT_EQ(found.at("degree_in")[1].at("variables"), Json::parse(R"(["q1", "q2"])"));
+  EXPECT_EQ(found.at("degree_in")[1].at("degree"), 6);
+  EXPECT_NE(run_in(folder, command).out.find("up to degree 4 in p1, p2 and 6 in q1, q2"),
+            std::string::npos);
+  const Json weighted = answered(folder, {"search", cubic, "--degree", "12", "--weights", "auto"});
+  EXPECT_EQ(weighted.at("weights"), Json::parse(R"({"q1": 2, "q2": 2, "p1": 3, "p2": 3})"));
+  EXPECT_EQ(weighted.at("details")[0].at("degree"), 12);
+
+  const std::string walls = folder.write(
+      "walls.toml",
+      "hamiltonian = \"(p1^2 + p2^2)/2 + 1/(q1 - q2)^2\"\n[phase_space]\nvariables = [\"q1\", "
+      "\"q2\", \"p1\", \"p2\"]\ncanonical = true\n");
+  const Json own = answered(folder, {"search", walls, "--degree", "1"});
+  EXPECT_EQ(own.at("functions"), Json{"(1/(q1 - q2))"});
+  EXPECT_EQ(own.at("integrals").size(), 1u);
+  EXPECT_TRUE(own.at("hamiltonian").get<bool>());
+}
+
 TEST(Search, BadInputIsNamedAndMemoryIsRefusedBeforeItIsTaken) {
   const Folder folder;
   const auto refused = [&](std::vector<std::string> arguments, int status, const char* text) {
@@ -123,6 +154,15 @@ TEST(Search, BadInputIsNamedAndMemoryIsRefusedBeforeItIsTaken) {
   refused({"search", "kovalevskaya", "--degree", "2", "--free", "s"}, 2, "'s'");
   refused({"search", "kovalevskaya", "--degree", "2", "--on", "M1*g9"}, 2, "--on:1:4");
   refused({"search", "kovalevskaya", "--degree", "2", "--weights", "M9=1"}, 2, "M9");
+  refused({"search", "kovalevskaya", "--degree-in", "M1"}, 2, "--degree-in momenta=4");
+  refused({"search", "kovalevskaya", "--degree-in", "M1=x", "--degree", "2"}, 2, "--degree-in:1:4");
+  refused({"search", "kovalevskaya", "--degree-in", "M1,g9=2"}, 2, "--degree-in:1:4");
+  refused({"search", "kovalevskaya", "--degree-in", "momenta=2"}, 2, "--degree-in:1:1");
+  refused({"search", "kovalevskaya", "--degree-in", "M1,M2=2"}, 2, "'M3'");
+  refused({"search", "kovalevskaya", "--degree", "2", "--weights", "auto", "--free", "r"}, 2,
+          "--free");
+  refused({"search", "kovalevskaya", "--degree", "2", "--darboux", "--degree-in", "M1=1"}, 2,
+          "--darboux");
   refused({"search", "kovalevskaya", "--degree", "70"}, 4, "GB");
 }
 

@@ -281,6 +281,24 @@ class Proofs(unittest.TestCase):
         self.assertEqual(len(quartic), 1)
         self.assertTrue(bare.verify(integral=quartic[0].text))
 
+    def test_search_by_degrees_in_parts_and_own_weights(self):
+        cubic = casimir.Case(hamiltonian="(p1^2 + p2^2)/2 + q1^2*q2 + c*q2^3",
+                             variables=["q1", "q2", "p1", "p2"], canonical=True, parameters=["c"])
+        known = cubic.with_values({"c": Fraction(16, 3)})
+        found = known.search(degree_in={"momenta": 4, "rest": 6})
+        self.assertEqual((len(found), found.verdict), (1, "proved"))
+        self.assertEqual(found.degree_in, [(["p1", "p2"], 4), (["q1", "q2"], 6)])
+        self.assertEqual(known.search(degree_in={("p1", "p2"): 3, "rest": 6}).found, [])
+        weighted = known.search(12, weights="auto")
+        self.assertEqual(weighted.weights, {"q1": 2, "q2": 2, "p1": 3, "p2": 3})
+        self.assertEqual([one.degree for one in weighted], [12])
+        values = [one.parameters["c"] for one in cubic.search(degree_in={"momenta": 4, "rest": 6}, free="c").conditions]
+        self.assertEqual(set(values), {"1/3", "2", "16/3"})
+        for ask in (lambda: known.search(), lambda: known.search(4, degree_in={"q9": 1}),
+                    lambda: known.search(4, degree_in=["momenta"]), lambda: cubic.search(4, weights="auto", free="c")):
+            with self.assertRaises((casimir.Error, TypeError, ValueError)):
+                ask()
+
     def test_free_parameters(self):
         family = casimir.Case(hamiltonian="(px^2 + py^2 + x^2 + y^2)/2 + x^2*y + c*y^3/3",
                               variables=["x", "y", "px", "py"], canonical=True, parameters=["c"])

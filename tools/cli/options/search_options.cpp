@@ -24,10 +24,10 @@ std::vector<Text> parts_of(const std::string& value, const std::string& option) 
 
 }  // namespace
 
-void add_weights(CLI::App& command, std::vector<std::string>& weights) {
+void add_weights(CLI::App& command, std::vector<std::string>& weights, const std::string& more) {
   command
       .add_option("--weights", weights,
-                  "Weights of variables, as whole numbers; 1 for those that are not named")
+                  "Weights of variables, as whole numbers; 1 for those that are not named" + more)
       ->allow_extra_args(false)
       ->type_name("NAME=W,..");
 }
@@ -48,6 +48,33 @@ std::vector<std::pair<Text, Text>> weights_of(const std::vector<std::string>& va
       result.emplace_back(Text{part.value.substr(0, equals), part.where, value},
                           Text{part.value.substr(equals + 1), where, value});
     }
+  }
+  return result;
+}
+
+void add_degree_in(CLI::App& command, std::vector<std::string>& limits) {
+  command
+      .add_option(
+          "--degree-in", limits,
+          "Highest degree in these variables, such as momenta=4 or g1,g2,g3=6; rest=N is of "
+          "all others (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("NAME,..=N");
+}
+
+std::vector<search::DegreeIn> degree_in_of(const std::vector<std::string>& values) {
+  std::vector<search::DegreeIn> result;
+  for (const std::string& value : values) {
+    const std::size_t equals = value.rfind('=');
+    if (equals == std::string::npos) {
+      throw UsageError(fmt::format(
+          "--degree-in '{}': expected NAME,..=N, such as --degree-in momenta=4", printable(value)));
+    }
+    search::DegreeIn own{
+        parts_of(value.substr(0, equals), "--degree-in"),
+        Text{value.substr(equals + 1), {"--degree-in", 1, static_cast<int>(equals) + 2}, value}};
+    for (Text& name : own.names) name.excerpt = value;
+    result.push_back(std::move(own));
   }
   return result;
 }

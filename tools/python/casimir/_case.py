@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 from . import _core
 from ._errors import NoAnswer, RequestError
@@ -56,6 +56,13 @@ Expressions = Union[Expression, Iterable[Expression], None]
 
 def _degree(degree: int) -> int:
     return whole("degree", degree, 0, 1000)
+
+
+def _limits_of(degree_in: Mapping[str | tuple[str, ...], int] | None) -> list[tuple[list[str], int]]:
+    """Names, alone or several, with the highest degree in them."""
+    if not isinstance(degree_in, (Mapping, type(None))):
+        raise TypeError(f"names with degrees are expected, {{'momenta': 4}}, and not {type(degree_in).__name__}")
+    return [(texts_of(names), whole("degree_in", degree, 0, 250)) for names, degree in (degree_in or {}).items()]
 
 
 #: The variables of algebras that have usual names for them.
@@ -271,13 +278,19 @@ class Case:
             _write_certificate(certificate, answer)
         return _results.verification_of(answer)
 
-    def search(self, degree: int, *, casimirs: bool = False, on: Expressions = None,
-               functions: Expressions = None, weights: Mapping[str, Expression] | None = None,
+    def search(self, degree: int | None = None, *, casimirs: bool = False, on: Expressions = None,
+               functions: Expressions = None, weights: Mapping[str, Expression] | Literal["auto"] | None = None,
+               degree_in: Mapping[str | tuple[str, ...], int] | None = None,
                free: Expressions = None, time_limit: float = 0, memory: float = 0) -> Search | Conditions:
         """All polynomial integrals up to a degree, less those that follow from the known ones.
 
+        :param degree: highest, weighted; without it those in ``degree_in`` have to bound all of the ansatz.
         :param casimirs: Casimir functions instead.
-        :param functions: that the integrals may be polynomials in besides the variables.
+        :param functions: that the integrals may be polynomials in besides the variables and the functions of
+            the equations.
+        :param weights: whole numbers; ``"auto"``: those by which the equations are quasi-homogeneous.
+        :param degree_in: highest degrees in some variables, as ``{"momenta": 4, "rest": 6}`` or
+            ``{("M1", "M2"): 2}``.
         :param free: parameters: their values at which there are further integrals.
         :param memory: bytes that may be used.
         :raises NoAnswer: where the time or the memory does not suffice.
@@ -285,10 +298,14 @@ class Case:
         >>> [str(one) for one in load("euler").search(2)]
         []
         """
+        highest = -1 if degree is None and degree_in else _degree(degree)
+        limits = _limits_of(degree_in)
         if free is not None:
             if casimirs or on is not None:
                 raise RequestError("free parameters go with neither casimirs nor a level")
-            facts = self._core.conditions(_degree(degree), texts_of(free), texts_of(functions), pairs_of(weights),
+            if weights == "auto":
+                raise RequestError("free parameters go with weights that are numbers")
+            facts = self._core.conditions(highest, texts_of(free), texts_of(functions), pairs_of(weights), limits,
                                           time_limit, memory)
             return _results.Conditions(
                 _results.search_of(facts["generic"]),
@@ -297,8 +314,9 @@ class Case:
                 facts["complete"],
                 facts["reason"],
             )
-        facts = self._core.search(_degree(degree), casimirs, texts_of(on), texts_of(functions), pairs_of(weights),
-                                  time_limit, memory)
+        own = weights == "auto"
+        facts = self._core.search(highest, casimirs, texts_of(on), texts_of(functions),
+                                  pairs_of(None if own else weights), own, limits, time_limit, memory)
         return _results.search_of({**facts, "not_on": self._core.constraints_left_out(texts_of(on))})
 
     def _findings(self, facts: dict[str, Any], what: str) -> Findings:

@@ -305,6 +305,8 @@ class Search(Sequence[Found]):
     generic: list[str]  #: parameters that the answer is about generic values of
     #: what all this is polynomials in, beside the variables
     functions: list[str] = field(default_factory=list)
+    weights: dict[str, int] = field(default_factory=dict)  #: where they are not all 1
+    degree_in: list[tuple[list[str], int]] = field(default_factory=list)  #: the limits beside the degree
     not_on: list[str] = field(default_factory=list)  #: constraints of the case, on which there may be more
 
     def __getitem__(self, index):

@@ -13,6 +13,8 @@ namespace casimir::python {
 using Names = std::vector<std::string>;
 /// Names with exact numbers as case files have them.
 using Values = std::vector<std::pair<std::string, std::string>>;
+/// Names of variables with the highest degree in them.
+using DegreesIn = std::vector<std::pair<Names, int>>;
 
 /// A case as Python holds it: its text, what was changed in it, and the model of that.
 class Case {

@@ -109,10 +109,11 @@ py::list to_python(const Case& self, const std::vector<search::Found>& list) {
 }
 
 py::dict to_python(const Case& self, const search::Report& report) {
-  return py::dict("found"_a = to_python(self, report.found),
-                  "casimirs"_a = to_python(self, report.casimirs), "trivial"_a = report.trivial,
-                  "complete"_a = report.complete, "reason"_a = report.reason,
-                  "generic"_a = report.generic, "functions"_a = report.functions);
+  return py::dict(
+      "found"_a = to_python(self, report.found), "casimirs"_a = to_python(self, report.casimirs),
+      "trivial"_a = report.trivial, "complete"_a = report.complete, "reason"_a = report.reason,
+      "generic"_a = report.generic, "functions"_a = report.functions,
+      "weights"_a = py::dict(py::cast(report.weights)), "degree_in"_a = report.degree_in);
 }
 
 std::vector<std::pair<Text, Text>> weights_of(const Values& weights) {
@@ -122,11 +123,31 @@ std::vector<std::pair<Text, Text>> weights_of(const Values& weights) {
   return result;
 }
 
+std::vector<search::DegreeIn> degree_in_of(const DegreesIn& limits) {
+  std::vector<search::DegreeIn> result;
+  for (const auto& [names, degree] : limits)
+    result.push_back({typed(names, "degree_in"), typed(std::to_string(degree), "degree_in")});
+  return result;
+}
+
+search::Request request_of(int degree, const Names& functions, const Values& weights,
+                           bool own_weights, const DegreesIn& degree_in) {
+  search::Request request;
+  request.degree = degree;
+  request.functions = typed(functions, "functions");
+  request.weights = weights_of(weights);
+  request.own_weights = own_weights;
+  request.degree_in = degree_in_of(degree_in);
+  return request;
+}
+
 py::object find_integrals(const Case& self, int degree, bool casimirs, const Names& on,
-                          const Names& functions, const Values& weights, double seconds,
-                          double memory) {
-  const search::Request request{degree, casimirs, typed(on, "on"), typed(functions, "functions"),
-                                weights_of(weights)};
+                          const Names& functions, const Values& weights, bool own_weights,
+                          const DegreesIn& degree_in, double seconds, double memory) {
+  search::Request request = request_of(degree, functions, weights, own_weights, degree_in);
+  request.casimirs = casimirs;
+  request.on = typed(on, "on");
+  request.denominators = true;
   Interrupt interrupt;
   return exactly(
       interrupt,
@@ -137,9 +158,9 @@ py::object find_integrals(const Case& self, int degree, bool casimirs, const Nam
 }
 
 py::object find_conditions(const Case& self, int degree, const Names& free, const Names& functions,
-                           const Values& weights, double seconds, double memory) {
-  const search::Request request{
-      degree, false, {}, typed(functions, "functions"), weights_of(weights)};
+                           const Values& weights, const DegreesIn& degree_in, double seconds,
+                           double memory) {
+  const search::Request request = request_of(degree, functions, weights, false, degree_in);
   Interrupt interrupt;
   const auto find = [&] {
     return search::find_conditions(self.model(), request, typed(free, "free"),

@@ -107,6 +107,36 @@ void print_end(bool complete, const std::string& reason, std::size_t conditions,
   fmt::print("{} conditions, {:.3f} s\n", conditions, seconds);
 }
 
+/// `up to degree 6, 4 in M1, M2, M3 and 2 in g1`; without a degree the limits alone.
+std::string up_to(int degree, const Report& report) {
+  std::string text = degree >= 0 ? fmt::format("up to degree {}", degree) : "up to degree";
+  const char* before = degree >= 0 ? ", " : " ";
+  for (const auto& [names, most] : report.degree_in) {
+    text += fmt::format("{}{} in {}", before, most, fmt::join(names, ", "));
+    before = " and ";
+  }
+  return text;
+}
+
+/// Negative where the limits of some variables alone were given.
+nlohmann::ordered_json degree_json(int degree) {
+  return degree >= 0 ? nlohmann::ordered_json(degree) : nlohmann::ordered_json();
+}
+
+void add_limits(nlohmann::ordered_json& json, const Report& report) {
+  for (const auto& [name, weight] : report.weights) json["weights"][name] = weight;
+  for (const auto& [names, degree] : report.degree_in)
+    json["degree_in"].push_back({{"variables", names}, {"degree", degree}});
+}
+
+void print_weights(const Report& report) {
+  if (report.weights.empty()) return;
+  std::string line;
+  for (const auto& [name, weight] : report.weights)
+    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", name, weight);
+  fmt::print("weights: {}\n", line);
+}
+
 /// The options that ask for integrals on the constraints of the case.
 std::string on_constraints(const Model& model) {
   std::vector<std::string> options;
@@ -125,7 +155,7 @@ std::string in_functions(const std::vector<std::string>& functions) {
 nlohmann::ordered_json to_json(const Model& model, int degree, const Report& report,
                                double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
-                              {"degree", degree},
+                              {"degree", degree_json(degree)},
                               {"kind", to_string(report.kind)},
                               {"integrals", texts(report.found)},
                               {"details", details(report.found)},
@@ -135,6 +165,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const Report& rep
                               {"verdict", report.complete ? "proved" : "undecided"},
                               {"generic", report.generic},
                               {"functions", report.functions}};
+  add_limits(json, report);
   if (!report.reason.empty()) json["reason"] = report.reason;
   if (!model.constraints.empty() && report.kind == ClaimKind::integral)
     json["not_on"] = names_of(model.constraints);
@@ -148,8 +179,9 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const Report& rep
 
 void print(const Model& model, int degree, const Report& report, double seconds) {
   const bool colour = may_colour(1);
-  fmt::print("{}: polynomial {} up to degree {}{}\n", model.name, noun(report, true), degree,
+  fmt::print("{}: polynomial {} {}{}\n", model.name, noun(report, true), up_to(degree, report),
              in_functions(report.functions));
+  print_weights(report);
   if (report.kind != ClaimKind::casimir && (report.hamiltonian || !report.casimirs.empty())) {
     fmt::print("known: {}\n", report.hamiltonian ? "the Hamiltonian" : "Casimir functions");
     print_list(report.casimirs, colour);
@@ -161,9 +193,9 @@ void print(const Model& model, int degree, const Report& report, double seconds)
     print_list(report.found, colour);
   }
   if (report.complete) {
-    fmt::print("No other {} up to degree {}{} that the known ones do not generate{}: {}\n",
-               noun(report, false), degree, in_functions(report.functions),
-               for_generic(report.generic), verdict_text(Verdict::proved, colour));
+    fmt::print("No other {} {}{} that the known ones do not generate{}: {}\n", noun(report, false),
+               up_to(degree, report), in_functions(report.functions), for_generic(report.generic),
+               verdict_text(Verdict::proved, colour));
   } else {
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
@@ -179,13 +211,15 @@ void print(const Model& model, int degree, const Report& report, double seconds)
 nlohmann::ordered_json to_json(const Model& model, int degree,
                                const search::ConditionReport& report, double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
-                              {"degree", degree},
+                              {"degree", degree_json(degree)},
                               {"integrals", texts(report.generic.found)},
                               {"casimirs", texts(report.generic.casimirs)},
                               {"trivial", report.generic.trivial},
                               {"conditions", nlohmann::ordered_json::array()},
                               {"verdict", report.complete ? "proved" : "undecided"},
                               {"generic", report.generic.generic}};
+  if (!report.generic.functions.empty()) json["functions"] = report.generic.functions;
+  add_limits(json, report.generic);
   for (const search::Condition& condition : report.conditions) {
     nlohmann::ordered_json own{{"parameters", nlohmann::ordered_json::object()}};
     for (const auto& [name, value] : condition.parameters) own["parameters"][name] = value;
@@ -205,8 +239,10 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
 
 void print(const Model& model, int degree, const search::ConditionReport& report, double seconds) {
   const bool colour = may_colour(1);
-  fmt::print("{}: where there is an additional polynomial {} up to degree {}\n", model.name,
-             noun(report.generic, false), degree);
+  fmt::print("{}: where there is an additional polynomial {} {}{}\n", model.name,
+             noun(report.generic, false), up_to(degree, report.generic),
+             in_functions(report.generic.functions));
+  print_weights(report.generic);
   if (!report.generic.found.empty()) {
     fmt::print("for generic values:\n");
     print_list(report.generic.found, colour);
