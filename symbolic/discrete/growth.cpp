@@ -118,7 +118,8 @@ double ratio_of(const std::vector<int>& degrees, const std::vector<std::int64_t>
 /// The polynomial in n that all degrees obey, by differences; at least two are more than what
 /// determines it.
 std::optional<std::pair<int, std::string>> polynomial_of(const std::vector<int>& degrees) {
-  constexpr std::size_t kMostDegree = 4;
+  constexpr std::size_t kMostDegree = 6;
+  constexpr std::int64_t kFactorial = 720;
   std::vector<std::int64_t> row(degrees.begin(), degrees.end());
   std::vector<std::int64_t> first;  // the differences at n = 1
   for (std::size_t k = 0; k <= kMostDegree && row.size() >= 3; ++k) {
@@ -130,8 +131,8 @@ std::optional<std::pair<int, std::string>> polynomial_of(const std::vector<int>&
   }
   if (first.empty() || !std::ranges::all_of(row, [&](std::int64_t d) { return d == row.front(); }))
     return std::nullopt;
-  // sum_k first[k] binomial(n - 1, k), with the common denominator 24.
-  std::vector<std::int64_t> sum(first.size(), 0), binomial{24};
+  // sum_k first[k] binomial(n - 1, k), with the common denominator 6!.
+  std::vector<std::int64_t> sum(first.size(), 0), binomial{kFactorial};
   for (std::size_t k = 0; k < first.size(); ++k) {
     for (std::size_t i = 0; i < binomial.size(); ++i) sum[i] += first[k] * binomial[i];
     // times (n - 1 - k)/(k + 1)
@@ -146,9 +147,9 @@ std::optional<std::pair<int, std::string>> polynomial_of(const std::vector<int>&
   std::string text;
   for (std::size_t i = sum.size(); i-- > 0;) {
     if (sum[i] == 0) continue;
-    const std::int64_t common = std::gcd(sum[i], std::int64_t{24});
+    const std::int64_t common = std::gcd(sum[i], kFactorial);
     const std::int64_t top = std::abs(sum[i]) / common;
-    const std::int64_t bottom = 24 / common;
+    const std::int64_t bottom = kFactorial / common;
     text += text.empty() ? (sum[i] < 0 ? "-" : "") : (sum[i] < 0 ? " - " : " + ");
     const std::string number =
         bottom == 1 ? std::to_string(top) : fmt::format("{}/{}", top, bottom);
@@ -181,6 +182,11 @@ Growth by_steps_of_degrees(const std::vector<int>& degrees) {
   if (degrees.size() < 3 || std::ranges::any_of(degrees, [](int d) { return d <= 0; }))
     return growth;
   const auto n = static_cast<double>(degrees.size());
+  // n*(d(n)/d(n-1) - 1) tends to k for n^k, and grows like n for an exponential.
+  const std::vector<double> steps = last_steps(
+      degrees, kRatios, [](double before, double d, double i) { return i * (d / before - 1); });
+  const bool grows =
+      steps.back() / steps.front() > 1 + (n / (n - static_cast<double>(steps.size()) + 1) - 1) / 2;
   const std::vector<double> ratios =
       last_steps(degrees, kRatios, [](double before, double d, double) { return d / before; });
   const std::vector<double> slopes =
@@ -188,15 +194,14 @@ Growth by_steps_of_degrees(const std::vector<int>& degrees) {
         return std::log(d / before) / std::log(i / (i - 1));
       });
   constexpr double kRatioSpread = 1.25, kSlopeSpread = 1.5, kHighest = 4;
-  if (ratios.back() > 1 + 5 / n && smallest(ratios) > 1 &&
+  if (ratios.back() > 1 + 5 / n && smallest(ratios) > 1 && grows &&
       largest(ratios) < kRatioSpread * smallest(ratios)) {
     growth.kind = Growth::Kind::exponential;
     growth.ratio = ratios.back();
   } else if (degrees.size() >= kFewest && smallest(slopes) >= 0 && largest(slopes) < kHighest &&
              largest(slopes) - smallest(slopes) < kSlopeSpread) {
     growth.kind = Growth::Kind::polynomial;
-    growth.degree = static_cast<int>(std::lround(std::accumulate(slopes.begin(), slopes.end(), 0.) /
-                                                 static_cast<double>(slopes.size())));
+    growth.degree = static_cast<int>(std::lround(slopes.back()));
   }
   return growth;
 }

@@ -306,6 +306,9 @@ std::vector<std::string> where_map_jumps(Prover& prover, const MapModel& map) {
   std::vector<std::string> where;
   for (const ex& next : map.next) {
     for (const Polynomial& jump : prover.passed_jumps(prover.convert(next), true, true)) {
+      // No orbit crosses what the map keeps.
+      const ex function = prover.ring().expression(jump);
+      if (prover.is_zero(prover.convert(map.composed(function)) - jump)) continue;
       std::string condition =
           fmt::format("on motions that do not cross {} = 0", prover.ring().text(jump));
       if (std::ranges::find(where, condition) == where.end()) where.push_back(std::move(condition));

@@ -318,6 +318,7 @@ class Prover {
   RealPoints real_points_;
   std::vector<GiNaC::ex> claim_, domain_, all_;
   std::optional<std::vector<Polynomial>> divisors_, motion_divisors_, kinks_, kinks_almost_;
+  std::optional<std::vector<Polynomial>> one_sided_poles_;  ///< of the Hamiltonian
   Subject subject_;
   struct KeptFromZero {
     Divisors which;

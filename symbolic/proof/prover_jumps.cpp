@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "symbolic/algebra/ideal.hpp"
+#include "symbolic/proof/one_sided_poles.hpp"
 #include "symbolic/proof/prover.hpp"
 
 namespace casimir {
@@ -93,6 +94,10 @@ bool Prover::ends_motions_at_poles(const Polynomial& f) {
   for (std::size_t i = 0; i < dimension(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (std::ranges::count(ring_.pole_factors(bracket_entry(i, j)), f) > 0) return false;
+  if (!one_sided_poles_) one_sided_poles_ = one_sided_poles(*this);
+  if (std::ranges::any_of(*one_sided_poles_,
+                          [&](const auto& own) { return own == f || own == -f; }))
+    return true;
   const Polynomial energy = convert(*model_.hamiltonian);
   constexpr std::size_t kMostPoles = 6;
   if (ring_.pole_factors(energy).size() > kMostPoles) return false;

@@ -54,6 +54,7 @@ AnsatzDegrees::AnsatzDegrees(const System& system, const Request& request)
 
 /// A declared function may be written in another way than the ring writes it.
 std::size_t AnsatzDegrees::place_of(const Text& name) const {
+  if (name.value.empty()) throw name.error("the name of a variable of the ansatz is missing");
   auto place = std::ranges::find(names_, name.value);
   if (place == names_.end() && name.value.find_first_of("()/^*") != std::string::npos)
     place = std::ranges::find(names_, system_.text_of(system_.model().parse(name)));
@@ -88,6 +89,8 @@ std::vector<std::size_t> AnsatzDegrees::places_named(const std::vector<Text>& na
   std::vector<std::size_t> places;
   const std::size_t half = system_.model().variables.size() / 2;
   for (const Text& name : names) {
+    if (name.value == "rest" && std::ranges::find(names_, name.value) == names_.end())
+      throw name.error("'rest' stands alone: it is all that no other limit names");
     const bool is_name = std::ranges::find(names_, name.value) != names_.end();
     if (is_name || (name.value != "momenta" && name.value != "coordinates")) {
       places.push_back(place_of(name));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/claims/density.hpp"
 #include "symbolic/proof/claims/on_constraints.hpp"
@@ -66,19 +67,26 @@ std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_sig
   if (has_imaginary_number(density) && has_imaginary_number(density.expand()))
     return "the density is not shown to be real";
   if (GiNaC::is_a<GiNaC::numeric>(density)) return {};  // not 0, by the first line
-  bool positive = false;
-  bool negative = false;
+  // An arbitrary function has either sign, and no value at a point.
+  const bool arbitrary = highest_derivative(density).has_value();
+  bool positive = arbitrary;
+  bool negative = arbitrary;
+  std::vector<GiNaC::ex> domain = prover.domain();
+  std::erase_if(domain, [](const GiNaC::ex& e) { return highest_derivative(e).has_value(); });
   constexpr int kPoints = 6;
   for (int i = 0; i < kPoints && !(positive && negative); ++i) {
-    auto point = prover.real_points().random(prover.domain());
+    auto point = prover.real_points().random(domain);
     if (!point) break;
     const auto sign = point->evaluator().sign(density);
     positive = positive || sign == 1;
     negative = negative || sign == -1;
   }
-  if (!positive && !negative)
+  const FunctionRing& ring = prover.ring();
+  const bool nowhere_zero = ring.is_nowhere_zero(ring.lowest_terms(prover.convert(density)).first);
+  if (!positive && !negative && !nowhere_zero)
     return "no point was found at which the density has a real value that is not zero";
   *both_signs = positive && negative;
+  if (nowhere_zero) return {};
   const auto found = rank_with_conditions(prover, {{prover.convert(density)}});
   if (!found || !found->uneven.empty() || found->rank == 0)
     return "the density is not shown to differ from zero on every piece of the domain";

@@ -164,6 +164,18 @@ TEST(Degrees, GrowthThatIsUnsteadyIsNotClear) {
   }
 }
 
+/// Of monomial maps with one eigenvalue, 1: like n^5, and like n^4 from the seventh on.
+TEST(Degrees, PolynomialGrowthOfAHighDegreeIsNotExponential) {
+  const auto fifth = discrete::growth_of({2, 4, 8, 16, 32, 63, 120, 219, 382});
+  EXPECT_EQ(fifth.kind, discrete::Growth::Kind::polynomial);
+  EXPECT_EQ(fifth.degree, 5);
+  EXPECT_NE(discrete::growth_of({5, 9, 13, 19, 36, 62, 99, 163, 256, 386}).kind,
+            discrete::Growth::Kind::exponential);
+  EXPECT_EQ(discrete::growth_of({6, 33, 180, 981}).kind, discrete::Growth::Kind::exponential);
+  EXPECT_EQ(discrete::growth_of({3, 7, 17, 39, 93, 215, 495}).kind,
+            discrete::Growth::Kind::exponential);
+}
+
 /// max(2^k, 3^l) of a block of three and one of four: 9 is the eighth, and not 3*4.
 TEST(Degrees, ARecurrenceSaysFromWhereItHolds) {
   const auto growth =

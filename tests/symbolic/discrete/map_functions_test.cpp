@@ -44,6 +44,18 @@ TEST(MapFunctions, MapsOfTheStandardKindHaveInverses) {
       map_of(kPhaseSpaceOfPlane + "[map]\nx = \"x^2 + y\"\ny = \"x^2 - y\"\n")));
 }
 
+TEST(MapFunctions, ADensityHasASignWithoutThem) {
+  const auto of = [](const std::string& density) {
+    return proof_of(map_of("[phase_space]\nvariables = [\"x\", \"y\"]\n[functions]\nU = [\"r\"]\n"
+                           "[map]\nx = \"x\"\ny = \"y + U(x)\"\n[[measure]]\ndensity = \"" +
+                           density + "\"\n"),
+                    ClaimKind::measure);
+  };
+  for (const char* density : {"1 + x^2", "exp(x)", "1 + U(x)^2"})
+    EXPECT_EQ(of(density).verdict, Verdict::proved) << density << ": " << of(density).reason;
+  EXPECT_EQ(of("1 + y^2").verdict, Verdict::refuted);
+}
+
 TEST(MapFunctions, WhatFailsForOneOfThemIsRefutedWithIt) {
   const Proof integral = proof_of(standard_like("[integrals]\nF = \"p\"\n"), ClaimKind::integral);
   EXPECT_EQ(integral.verdict, Verdict::refuted);

@@ -31,6 +31,19 @@ TEST(MapJumps, AMapThatJumpsOnTheToriIsNoShiftOfThem) {
   EXPECT_TRUE(smooth.where.empty());
 }
 
+/// Circles inside and outside of the unit circle are turned differently, and none crosses it.
+TEST(MapJumps, AMapMayJumpAcrossWhatItKeeps) {
+  const Proof proof =
+      proof_of(of_canonical_plane(
+                   "[map]\nq = \"q*cos(sign(p^2 + q^2 - 1)) - p*sin(sign(p^2 + q^2 - 1))\"\np "
+                   "= \"q*sin(sign(p^2 + q^2 - 1)) + p*cos(sign(p^2 + q^2 - 1))\"\n"),
+               ClaimKind::liouville);
+  EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+  EXPECT_TRUE(std::ranges::none_of(proof.where, [](const std::string& condition) {
+    return condition.find("cross") != std::string::npos;
+  }));
+}
+
 /// The second step has a pole that the first one moves.
 TEST(MapJumps, ConditionsOfACompositionAreInTheVariablesOfItsStart) {
   const Proof proof = proof_of(

@@ -164,6 +164,32 @@ TEST(PassedPoles, EndMotionsForEachValueOfACoupling) {
   EXPECT_EQ(verdict("g/(q1 - q2)^2 + (q1 - q2 - k)/(q1 - q2)"), Verdict::undecided);
 }
 
+/// Poles of one sign do not cancel: on a level the motion ends at each of them.
+TEST(PassedPoles, OfOneSignEndMotionsOnEachLevel) {
+  const auto where = [](const std::string& hamiltonian, const std::string& on) {
+    return proof_in_case("conditional",
+                         "hamiltonian = \"" + hamiltonian +
+                             "\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\", \"px\", \"py\", "
+                             "\"pz\"]\ncanonical = true\n[parameters]\nm = {}\nk = {}\n"
+                             "[[conditional]]\nname = \"C\"\nexpression = \"x + z\"\non = [" +
+                             on + "]\n");
+  };
+  const auto is_free = [&](const std::string& hamiltonian, const std::string& on) {
+    const Proof proof = where(hamiltonian, on);
+    EXPECT_EQ(proof.verdict, Verdict::proved) << hamiltonian << ": " << proof.reason;
+    return std::ranges::none_of(proof.where, [](const std::string& condition) {
+      return condition.find("motions") != std::string::npos;
+    });
+  };
+  const std::string kinetic = "(px^2 + py^2 + pz^2)/2";
+  const std::string symmetric = R"("x + z", "px + pz", "y", "py")";
+  EXPECT_TRUE(is_free(kinetic + " + 1/(x - y)^2 + 1/(y - z)^2 + 1/(x - z)^2", symmetric));
+  EXPECT_TRUE(is_free(kinetic + " + k/(x - y)^2 + k/(y - z)^2 + k/(x - z)^2", symmetric));
+  EXPECT_TRUE(is_free(kinetic + " + log((x - y)^2) + log((y - z)^2)", symmetric));
+  // Poles of both signs may cancel where they meet.
+  EXPECT_FALSE(is_free(kinetic + " + 1/(x - y)^2 + 1/(y - z)^2 - m/(x - z)^2", symmetric));
+}
+
 /// Walls that meet, walls of sines, centrifugal terms: almost all motions end there.
 TEST(PassedPoles, OfTheEnergyArePassedByFewMotions) {
   for (const char* potential : {"1/q1^2 + 1/q2^2", "1/cos(q1)^2", "g/sin(q1 - q2)^2",
