@@ -1,6 +1,8 @@
 #include "symbolic/discrete/modular_kernel.hpp"
 
 #include <flint/nmod_mat.h>
+#include <flint/nmod_poly.h>
+#include <flint/nmod_poly_factor.h>
 
 #include <algorithm>
 
@@ -66,6 +68,33 @@ std::optional<std::vector<cln::cl_RA>> rationals_from(const std::vector<Element>
     if (!value) return std::nullopt;
     result.push_back(*value);
   }
+  return result;
+}
+
+std::vector<Element> common_eigenvalues(const std::vector<Pencil>& pencils) {
+  nmod_poly_t common, own;
+  nmod_poly_init(common, kPrime);
+  nmod_poly_init(own, kPrime);
+  for (const Pencil& pencil : pencils) {
+    const std::size_t size = pencil.a.size();
+    Matrix a(pencil.a, size), b(pencil.b, size), quotient(size, size);
+    if (nmod_mat_solve(quotient.raw(), b.raw(), a.raw()) == 0) continue;
+    nmod_mat_charpoly(own, quotient.raw());
+    nmod_poly_gcd(common, common, own);
+  }
+  std::vector<Element> result;
+  if (nmod_poly_degree(common) > 0) {
+    nmod_poly_factor_t roots;
+    nmod_poly_factor_init(roots);
+    nmod_poly_roots(roots, common, 0);
+    for (slong i = 0; i < roots->num; ++i) {
+      const Element root = nmod_neg(nmod_poly_get_coeff_ui(roots->p + i, 0), common->mod);
+      if (root != 0) result.push_back(root);
+    }
+    nmod_poly_factor_clear(roots);
+  }
+  nmod_poly_clear(own);
+  nmod_poly_clear(common);
   return result;
 }
 

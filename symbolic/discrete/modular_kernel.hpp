@@ -18,6 +18,15 @@ std::vector<std::vector<Element>> null_space(const std::vector<std::vector<Eleme
 std::vector<std::vector<Element>> echelon(const std::vector<std::vector<Element>>& rows,
                                           std::size_t columns);
 
+/// A square pencil: A v = c B v.
+struct Pencil {
+  std::vector<std::vector<Element>> a, b;
+};
+
+/// The numbers c, not 0, at which all pencils have a vector v other than 0, or more; those with a
+/// singular B say nothing.
+std::vector<Element> common_eigenvalues(const std::vector<Pencil>& pencils);
+
 /// Fractions with numerators and denominators below 2^30 that are these residues; empty where there
 /// are none.
 std::optional<std::vector<cln::cl_RA>> rationals_from(const std::vector<Element>& residues);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "symbolic/discrete/map_darboux.hpp"
 #include "symbolic/discrete/search_map.hpp"
 #include "symbolic/search/conditions/darboux_conditions.hpp"
 #include "symbolic/search/darboux.hpp"
@@ -106,11 +107,21 @@ int answer(const SearchArguments& options, const Model& model, const Report& rep
 
 /// Of a map: what `search` asks of flows beyond the degree has no meaning there.
 int search_map_case(const MapCaseFile& file, const SearchArguments& options) {
-  if (!options.in.empty() || options.casimirs || options.darboux || options.rational ||
-      is_structure(options) || options.separation || is_narrow(options) || !options.free.empty())
-    throw UsageError("a search of a map takes --degree and --param only");
+  if (!options.in.empty() || options.casimirs || options.rational || is_structure(options) ||
+      options.separation || is_narrow(options) || !options.free.empty())
+    throw UsageError("a search of a map takes --degree, --darboux and --param only");
   const MapModel map = map_model_of(file, options.common.parameter_values());
   SearchWatch watch(options.common, map.base.name, memory_allowed().value_or(2e9));
+  if (options.darboux) {
+    const discrete::MapDarboux found =
+        discrete::find_map_darboux(map, options.degree, watch.watch());
+    const double seconds = watch.end();
+    if (options.common.json)
+      print_json(to_json(map.base, options.degree, found, seconds));
+    else if (!options.common.quiet)
+      print(map.base, options.degree, found, seconds);
+    return found.complete ? kDone : kUndecided;
+  }
   const discrete::MapSearch found = discrete::search_map(map, options.degree, watch.watch());
   const double seconds = watch.end();
   if (options.common.json)
@@ -256,8 +267,10 @@ int search(const SearchArguments& options) {
     throw UsageError("--casimirs and --on do not go together");
   if (options.casimirs && !options.free.empty())
     throw UsageError("--casimirs and --free do not go together");
-  if (!options.free.empty() && options.weights == std::vector<std::string>{"auto"})
-    throw UsageError("--free takes weights that are numbers");
+  const bool automatic = std::ranges::count(options.weights, "auto") > 0;
+  if (automatic && options.weights.size() > 1)
+    throw UsageError("--weights auto stands alone: it takes the weights of the equations");
+  if (automatic && !options.free.empty()) throw UsageError("--free takes weights that are numbers");
   if (options.darboux && is_narrow(options))
     throw UsageError("--darboux takes --degree, --free and --param only");
   if (options.rational && (is_narrow(options) || !options.free.empty()))

@@ -103,6 +103,23 @@ TEST(MapCommands, SearchPrintsWhatIsProved) {
   EXPECT_EQ(run({"search", "lyness", "--degree", "3", "--darboux"}).status, 2);
 }
 
+TEST(MapCommands, SearchFindsDarbouxPolynomials) {
+  const Folder folder;
+  const std::vector<std::string> command{"search",   "lyness", "--param",  "a=2",
+                                         "--degree", "3",      "--darboux"};
+  std::vector<std::string> in_json = command;
+  in_json.emplace_back("--json");
+  const nlohmann::ordered_json found = run_in(folder, in_json).json();
+  EXPECT_EQ(found.at("invariant_relations")[0].at("cofactor"), "(y + 2)/x^2");
+  EXPECT_EQ(found.at("integrals").size(), 1u);
+  EXPECT_EQ(found.at("combinations").size(), 2u);
+  EXPECT_EQ(found.at("verdict"), "proved");
+  EXPECT_NE(run_in(folder, command).out.find("P = x*y   C = (y + 2)/x^2"), std::string::npos);
+  const Outcome symbols = run_in(folder, {"search", "lyness", "--degree", "2", "--darboux"});
+  EXPECT_EQ(symbols.status, 2);
+  EXPECT_NE(symbols.err.find("'a'"), std::string::npos) << symbols.err;
+}
+
 TEST(MapCommands, IntegrateIterates) {
   const Folder folder;
   const Outcome run_of = run_in(folder, {"integrate", "lyness", "--duration", "5", "--param", "a=1",

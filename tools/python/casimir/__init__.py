@@ -55,6 +55,7 @@ if _TYPE_CHECKING:
         Findings,
         Found,
         Iterates,
+        MapDarboux,
         MapSearch,
         Obstruction,
         Orbit,
@@ -94,9 +95,9 @@ for _folder in ("cases", "../../../../share/casimir/cases"):
 __all__ = [
     "Balance", "Box", "Case", "CaseError", "Cell", "Checked", "Comparison", "Condition", "Conditions", "Conservation",
     "Cycle", "DarbouxPolynomial", "Degrees", "Enclosure", "Ensemble", "EnvironmentProblem", "Equilibrium", "Error",
-    "Exponent", "Exponents", "Findings", "Found", "Frequencies", "Horseshoe", "Iterates", "Map", "MapSearch",
-    "ModelError", "NoAnswer", "Obstruction", "Orbit", "PreciseEnd", "Proof", "ProvedCycle", "ProvedEquilibrium",
-    "Relation", "Report", "RequestError", "Rotation", "Run", "Search", "Section", "Separations", "SingularPoint",
-    "Solution", "Stress", "Sweep", "SymmetricCycle", "System", "UndecidedError", "Verification", "Witness", "cases", "check",
-    "load", "load_map", "maps", "methods", "new", "survey",
+    "Exponent", "Exponents", "Findings", "Found", "Frequencies", "Horseshoe", "Iterates", "Map", "MapDarboux",
+    "MapSearch", "ModelError", "NoAnswer", "Obstruction", "Orbit", "PreciseEnd", "Proof", "ProvedCycle",
+    "ProvedEquilibrium", "Relation", "Report", "RequestError", "Rotation", "Run", "Search", "Section", "Separations",
+    "SingularPoint", "Solution", "Stress", "Sweep", "SymmetricCycle", "System", "UndecidedError", "Verification",
+    "Witness", "cases", "check", "load", "load_map", "maps", "methods", "new", "survey",
 ]

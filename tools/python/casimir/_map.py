@@ -10,7 +10,7 @@ from ._exact import Expression, is_float, pairs_of, texts_of, whole
 from ._lazy import Lazy
 
 if TYPE_CHECKING:
-    from ._results import Degrees, Iterates, MapSearch, Verification
+    from ._results import Degrees, Iterates, MapDarboux, MapSearch, Verification
 
 _results = Lazy("._results")
 
@@ -122,6 +122,15 @@ class Map:
         (1, True)
         """
         return _results.MapSearch(**self._core.search(whole("degree", degree, 0, 1000), time_limit, memory))
+
+    def darboux(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> MapDarboux:
+        """Polynomials P with P(x') = C P up to a degree, and what their products give.
+
+        >>> found = load_map("lyness").with_values({"a": 2}).darboux(2)
+        >>> [(one.text, one.cofactor) for one in found]
+        [('x*y', '(y + 2)/x^2')]
+        """
+        return _results.map_darboux_of(self._core.darboux(whole("degree", degree, 0, 1000), time_limit, memory))
 
     def degrees(self, iterates: int = 0, *, time_limit: float = 0, memory: float = 0) -> Degrees:
         """The degrees of the iterates on a general line. What they suggest is evidence and no proof.

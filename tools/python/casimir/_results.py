@@ -305,8 +305,8 @@ class Search(Sequence[Found]):
     generic: list[str]  #: parameters that the answer is about generic values of
     #: what all this is polynomials in, beside the variables
     functions: list[str] = field(default_factory=list)
-    weights: dict[str, int] = field(default_factory=dict)  #: where they are not all 1
-    degree_in: list[tuple[list[str], int]] = field(default_factory=list)  #: the limits beside the degree
+    weights: dict[str, int] = field(default_factory=dict, repr=False)  #: where they are not all 1
+    degree_in: list[tuple[list[str], int]] = field(default_factory=list, repr=False)  #: limits beside the degree
     not_on: list[str] = field(default_factory=list)  #: constraints of the case, on which there may be more
 
     def __getitem__(self, index):
@@ -389,6 +389,27 @@ class DarbouxPolynomial:
     relations: list[str]
     degree: int
     verdict: str
+
+
+@dataclass(frozen=True)
+class MapDarboux(Sequence[DarbouxPolynomial]):
+    """Discrete Darboux polynomials of a map, with cofactors that are products of `factors`."""
+
+    found: list[DarbouxPolynomial]
+    combinations: list[tuple[str, str]]  #: "integral" or "multiplier", a density, with its text
+    factors: list[str]
+    complete: bool  #: proved: there are no others with such cofactors, beside products and sums
+    reason: str  #: where not
+
+    def __getitem__(self, index):
+        return self.found[index]
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+
+def map_darboux_of(facts: dict[str, Any]) -> MapDarboux:
+    return MapDarboux(**{**facts, "found": [DarbouxPolynomial(**one) for one in facts["found"]]})
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@
 #include "symbolic/discrete/degrees.hpp"
 #include "symbolic/discrete/growth.hpp"
 #include "symbolic/discrete/kahan.hpp"
+#include "symbolic/discrete/map_darboux.hpp"
 #include "symbolic/discrete/prove_map.hpp"
 #include "symbolic/discrete/search_map.hpp"
 #include "symbolic/expression/expression.hpp"
@@ -116,6 +117,25 @@ py::object search_of_map(const MapCase& self, int degree, double seconds, double
                     "no_rational"_a = found.no_fraction, "polynomials"_a = found.polynomials,
                     "relations"_a = found.relations, "density_space"_a = found.density_space,
                     "generic"_a = found.generic, "reason"_a = found.reason);
+  });
+}
+
+py::object darboux_of_map(const MapCase& self, int degree, double seconds, double memory) {
+  Interrupt interrupt;
+  const auto find = [&] {
+    return discrete::find_map_darboux(self.map(), degree, watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [](const discrete::MapDarboux& report) {
+    py::list found, combinations;
+    for (const search::DarbouxPolynomial& own : report.found)
+      found.append(py::dict("text"_a = own.text, "cofactor"_a = own.cofactor,
+                            "relations"_a = own.relations, "degree"_a = own.degree,
+                            "verdict"_a = to_string(own.verdict)));
+    for (const search::DarbouxCombination& own : report.combinations)
+      combinations.append(py::make_tuple(search::to_string(own.kind), own.text));
+    return py::dict("found"_a = found, "combinations"_a = combinations,
+                    "factors"_a = report.factors, "complete"_a = report.complete,
+                    "reason"_a = report.reason);
   });
 }
 
@@ -273,6 +293,7 @@ void bind_maps(py::module_& module) {
                              })
       .def("verify", &verify_map)
       .def("search", &search_of_map)
+      .def("darboux", &darboux_of_map)
       .def("degrees", &degrees)
       .def("iterate", &iterated);
 }

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tools/cli/output.hpp"
 #include "tools/text/proofs/constraints_note.hpp"
+#include "tools/text/proofs/proof_report.hpp"
+#include "tools/text/proofs/search_report.hpp"
 
 namespace casimir::tools {
 
@@ -67,6 +70,49 @@ void print(const Model& base, int degree, const discrete::MapSearch& found, doub
   fmt::print("{}", whole_space_note(names_of(base.constraints)));
   if (!found.reason.empty()) fmt::print("{}\n", found.reason);
   fmt::print("{} found, {:.3f} s\n", found.integrals.size(), seconds);
+}
+
+nlohmann::ordered_json to_json(const Model& base, int degree, const discrete::MapDarboux& found,
+                               double seconds) {
+  search::DarbouxReport report;
+  report.found = found.found;
+  report.combinations = found.combinations;
+  report.complete = found.complete;
+  report.has_conjugates = true;
+  report.reason = found.reason;
+  nlohmann::ordered_json json = to_json(base, degree, report, seconds);
+  json["factors"] = found.factors;
+  json["has_jacobian"] = found.has_jacobian;
+  if (!base.constraints.empty()) json["not_on"] = names_of(base.constraints);
+  return json;
+}
+
+void print(const Model& base, int degree, const discrete::MapDarboux& found, double seconds) {
+  const bool colour = may_colour(1);
+  const std::string proved = verdict_text(Verdict::proved, colour);
+  fmt::print("{}: polynomials P up to degree {} with P(x') = C*P, which are no integrals\n",
+             base.name, degree);
+  fmt::print("C made of the factors of the denominators{}: {}\n",
+             found.has_jacobian ? " and of the Jacobian determinant"
+                                : " (the Jacobian determinant is too long)",
+             found.factors.empty() ? "none" : fmt::format("{}", fmt::join(found.factors, "; ")));
+  for (const search::DarbouxPolynomial& own : found.found)
+    fmt::print("  P = {}   C = {}   {}\n", own.text, own.cofactor, proved);
+  if (found.complete)
+    fmt::print(
+        "No others with such a C, beside their products with each other and with integrals and "
+        "sums of those with one C: {}\n",
+        proved);
+  else
+    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+               found.reason);
+  if (!found.combinations.empty()) fmt::print("what they give:\n");
+  for (const search::DarbouxCombination& own : found.combinations)
+    fmt::print("  {}   {}   {}\n",
+               own.kind == search::DarbouxCombination::Kind::multiplier ? "density" : "integral",
+               own.text, verdict_text(own.verdict, colour));
+  fmt::print("{}", whole_space_note(names_of(base.constraints)));
+  fmt::print("{} found, {:.3f} s\n", found.found.size(), seconds);
 }
 
 }  // namespace casimir::tools
