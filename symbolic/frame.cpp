@@ -168,7 +168,7 @@ class StructureFunctions {
         equations.back().push_back(target[i].evaluate(*point));
       }
     }
-    const auto solution = solve_unique(std::move(equations));
+    const auto solution = solve_unique(equations);
     if (!solution) return std::nullopt;
     std::vector<Polynomial> factors;
     std::vector<ex> result;

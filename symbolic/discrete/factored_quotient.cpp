@@ -97,13 +97,11 @@ GiNaC::ex FactoredQuotient::value(const FunctionRing& ring) const {
 }
 
 RationalMatrix exponent_rows(const std::vector<FactoredQuotient>& quotients) {
-  std::vector<Polynomial> bases;
+  FactoredQuotient all;
   for (const FactoredQuotient& q : quotients)
-    for (const auto& [base, e] : q.powers)
-      if (std::ranges::none_of(bases, [&](const auto& b) { return is_same_up_to_sign(b, base); }))
-        bases.push_back(base);
+    for (const auto& [base, e] : q.powers) all.multiply(base, 1);
   RationalMatrix rows;
-  for (const Polynomial& base : bases) {
+  for (const auto& [base, e] : all.powers) {
     rows.emplace_back();
     for (const FactoredQuotient& q : quotients) rows.back().push_back(q.exponent_of(base));
   }

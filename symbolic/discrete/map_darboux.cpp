@@ -134,28 +134,30 @@ std::vector<Exponents> DarbouxSearch::choices(int degree) const {
   for (const Factor& f : factors_) common += f.in_denominators * f.base.total_degree();
   for (std::size_t i = 0; i < tops_.size(); ++i)
     highest = std::max(highest, tops_[i].total_degree() + common - bottoms_[i].total_degree());
-  const long room = degree * std::max(highest, common) - 1;
   std::vector<Exponents> result;
   Exponents own(factors_.size(), 0);
-  constexpr std::size_t kMost = 4000;
-  const std::function<void(std::size_t, long)> choose = [&](std::size_t k, long left) {
+  constexpr std::size_t kMost = 20000;
+  // What is left of the degrees of the numerator and of factors of P.
+  const std::function<void(std::size_t, long, long)> choose = [&](std::size_t k, long top, long p) {
     if (result.size() > kMost) return;
     if (k == factors_.size()) {
       result.push_back(own);
       return;
     }
     const Factor& f = factors_[k];
-    for (int e = -degree * f.in_denominators; e <= 0; ++e) {
+    const long size = f.base.total_degree();
+    const int in_denominator = degree * f.in_denominators;
+    for (int e = -in_denominator; e * size <= top; ++e) {
       own[k] = e;
-      choose(k + 1, left);
+      choose(k + 1, e > 0 ? top - e * size : top, p);
     }
-    for (int e = 1; e * f.base.total_degree() <= left; ++e) {
-      own[k] = e;
-      choose(k + 1, left - e * f.base.total_degree());
+    for (int in_p = 1; in_p * size <= p; ++in_p) {
+      own[k] = -in_denominator - in_p;
+      choose(k + 1, top, p - in_p * size);
     }
     own[k] = 0;
   };
-  choose(0, room);
+  choose(0, degree * std::max(highest, common), degree);
   if (result.size() > kMost)
     throw ModelError(fmt::format(
         "the cofactors may have more than {} different exponents up to this degree", kMost));

@@ -33,8 +33,9 @@ struct MapDarboux {
 /// Owren, Quispel, Tapley and van der Kamp, J. Phys. A 52 (2019) 31LT01). For a birational map all
 /// are: where C vanishes and P does not, the map has a pole or contracts a hypersurface.
 ///
-/// With the d-th power of the common denominator P(x') is a polynomial of a known degree, of which
-/// P and the numerator of C are factors: so the exponents are finitely many. For each choice
+/// With the d-th power of the common denominator D, P(x') is a polynomial Q of a known degree, and
+/// C = Q/(P D^d): the numerator of C is a factor of Q, and in its denominator stands a factor of
+/// D^d times one of P, of degree d at most. So the exponents are finitely many. For each choice
 /// C = c K the equation is a pencil in the coefficients of P modulo a prime, whose eigenvalues c
 /// are those of two pencils from different random points; a rational P is among its solutions.
 /// \throws ModelError  for a map that is not rational, or with parameters without values

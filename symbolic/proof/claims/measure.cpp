@@ -85,7 +85,7 @@ std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_sig
   const bool nowhere_zero = ring.is_nowhere_zero(ring.lowest_terms(prover.convert(density)).first);
   if (!positive && !negative && !nowhere_zero)
     return "no point was found at which the density has a real value that is not zero";
-  *both_signs = positive && negative;
+  *both_signs = positive && negative && !(arbitrary && nowhere_zero);
   if (nowhere_zero) return {};
   const auto found = rank_with_conditions(prover, {{prover.convert(density)}});
   if (!found || !found->uneven.empty() || found->rank == 0)

@@ -59,6 +59,25 @@ TEST(MapDarboux, OfAMapWithAPoleMayVanishThere) {
       found.found, [](const auto& own) { return own.text == "y" && own.cofactor == "x"; }));
 }
 
+/// Of these P is a factor of the denominator of C, or C has no other: x, y and z = 1 - x - y of
+/// Cremona's involution, x' = y z/f, y' = x z/f, with f = x y + y z + z x; x of 1/x.
+TEST(MapDarboux, MayBeFactorsOfTheDenominatorsOfCofactors) {
+  const auto has = [](const discrete::MapDarboux& found, const std::string& p) {
+    return std::ranges::any_of(found.found, [&](const auto& own) { return own.text == p; });
+  };
+  const std::string f = "(y*(1 - x - y) + x*(1 - x - y) + x*y)";
+  const MapModel cremona = rational_plane("y*(1 - x - y)/" + f, "x*(1 - x - y)/" + f);
+  const auto linear = discrete::find_map_darboux(cremona, 1);
+  for (const char* p : {"x", "y", "x + y - 1", "x - y"}) EXPECT_TRUE(has(linear, p)) << p;
+  expect_darboux(cremona, linear);
+  EXPECT_TRUE(has(discrete::find_map_darboux(cremona, 2), "x^2 + x*y + y^2 - x - y"));
+  const auto cycle = discrete::find_map_darboux(rational_plane("y", "1/(x*y)"), 1);
+  EXPECT_TRUE(has(cycle, "x") && has(cycle, "y"));
+  const auto squares = discrete::find_map_darboux(rational_plane("y^2", "x^2"), 1);
+  EXPECT_TRUE(has(squares, "x") && has(squares, "y"));
+  EXPECT_TRUE(has(discrete::find_map_darboux(rational_plane("1/x", "y"), 1), "x"));
+}
+
 /// The factors x and y, and the three of the cubic, are exchanged by the map.
 TEST(MapDarboux, OfLynessMapGiveItsIntegralAndItsMeasure) {
   const MapModel map = rational_plane("y", "(5/7 + y)/x");

@@ -54,6 +54,7 @@ TEST(MapFunctions, ADensityHasASignWithoutThem) {
   for (const char* density : {"1 + x^2", "exp(x)", "1 + U(x)^2"})
     EXPECT_EQ(of(density).verdict, Verdict::proved) << density << ": " << of(density).reason;
   EXPECT_EQ(of("1 + y^2").verdict, Verdict::refuted);
+  EXPECT_EQ(of("exp(U(x))").evidence.find("both signs"), std::string::npos);
 }
 
 TEST(MapFunctions, WhatFailsForOneOfThemIsRefutedWithIt) {
