@@ -11,6 +11,7 @@
 #include "symbolic/discrete/map_measure_claim.hpp"
 #include "symbolic/discrete/values_between_steps.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
 #include "symbolic/proof/generic_rank.hpp"

@@ -165,16 +165,6 @@ std::vector<Exponents> DarbouxSearch::choices(int degree) const {
 }
 
 void DarbouxSearch::draw_samples(const search::Monomials& monomials, std::size_t count) {
-  const auto values_at = [&](const Row& x) {
-    Row result;
-    for (std::size_t m = 0; m < monomials.size(); ++m) {
-      Element product = 1;
-      for (std::size_t i = 0; i < x.size(); ++i)
-        product = field_.multiply(product, field_.power(x[i], monomials[m][i]));
-      result.push_back(product);
-    }
-    return result;
-  };
   samples_.clear();
   constexpr int kTrials = 100;
   int failed = 0;
@@ -200,8 +190,8 @@ void DarbouxSearch::draw_samples(const search::Monomials& monomials, std::size_t
         throw ModelError("the map has no value at random points: a denominator is zero");
       continue;
     }
-    sample.before = values_at(x);
-    sample.after = values_at(*image);
+    sample.before = values_at(x, monomials);
+    sample.after = values_at(*image, monomials);
     samples_.push_back(std::move(sample));
   }
 }

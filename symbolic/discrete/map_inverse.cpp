@@ -9,6 +9,7 @@
 #include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/run_claims.hpp"
 
 namespace casimir::discrete {

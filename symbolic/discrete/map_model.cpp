@@ -3,6 +3,7 @@
 #include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/model/given_functions.hpp"
 
 namespace casimir {
 

@@ -7,9 +7,10 @@
 
 #include "symbolic/discrete/map_case.hpp"
 #include "symbolic/model.hpp"
-#include "symbolic/model/given_functions.hpp"
 
 namespace casimir {
+
+struct GivenFunctions;
 
 /// See SymmetryText.
 struct MapSymmetry {

@@ -37,6 +37,19 @@ class Matrix {
 
 }  // namespace
 
+std::vector<Element> values_at(const std::vector<Element>& point,
+                               const search::Monomials& monomials) {
+  const PrimeField field;
+  std::vector<Element> result;
+  for (std::size_t m = 0; m < monomials.size(); ++m) {
+    Element product = 1;
+    for (std::size_t i = 0; i < point.size(); ++i)
+      product = field.multiply(product, field.power(point[i], monomials[m][i]));
+    result.push_back(product);
+  }
+  return result;
+}
+
 std::vector<std::vector<Element>> echelon(const std::vector<std::vector<Element>>& rows,
                                           std::size_t columns) {
   Matrix matrix(rows, columns);

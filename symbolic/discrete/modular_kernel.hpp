@@ -6,8 +6,13 @@
 #include <vector>
 
 #include "symbolic/discrete/prime_field.hpp"
+#include "symbolic/search/modular/monomials.hpp"
 
 namespace casimir::discrete {
+
+/// The values of monomials at a point.
+std::vector<Element> values_at(const std::vector<Element>& point,
+                               const search::Monomials& monomials);
 
 /// The null space of a matrix modulo the prime, in reduced echelon form: every vector has a 1 where
 /// all others have a 0.

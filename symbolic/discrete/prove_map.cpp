@@ -4,6 +4,7 @@
 
 #include "symbolic/discrete/map_claims.hpp"
 #include "symbolic/discrete/prove_candidate.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/claims/claim_kinds.hpp"
 #include "symbolic/proof/run_claims.hpp"
 

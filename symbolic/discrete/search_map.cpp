@@ -80,17 +80,6 @@ class Search {
     Element jacobian;
   };
 
-  Row monomials_at(const Row& x) const {
-    Row result;
-    for (std::size_t m = 0; m < monomials_.size(); ++m) {
-      Element product = 1;
-      for (std::size_t i = 0; i < x.size(); ++i)
-        product = field_.multiply(product, field_.power(x[i], monomials_[m][i]));
-      result.push_back(product);
-    }
-    return result;
-  }
-
   /// A random point and where it goes; points without an image are passed over.
   Step random_step() {
     const std::size_t n = map_.base.variables.size();
@@ -110,7 +99,8 @@ class Search {
         return Scalar{field_.multiply(a.value, b.value)};
       });
       const auto all = minors.find((1U << n) - 1);
-      return {monomials_at(x), monomials_at({values->begin(), values->begin() + long(n)}),
+      return {values_at(x, monomials_),
+              values_at({values->begin(), values->begin() + long(n)}, monomials_),
               all == minors.end() ? 0 : all->second.value};
     }
     throw ModelError("the map has no value at random points: a denominator is zero");
@@ -215,7 +205,7 @@ class Search {
       while (rows.size() < m + kMore) {
         if (rows.size() % 16 == 0)
           watch_.tick(static_cast<double>(rows.size()) / static_cast<double>(m + kMore));
-        rows.push_back(monomials_at({arguments.begin(), arguments.begin() + long(n)}));
+        rows.push_back(values_at({arguments.begin(), arguments.begin() + long(n)}, monomials_));
         const auto values = next_.run(arguments);
         if (!values) break;
         std::copy(values->begin(), values->end(), arguments.begin());
