@@ -185,8 +185,8 @@ Growth by_steps_of_degrees(const std::vector<int>& degrees) {
   // n*(d(n)/d(n-1) - 1) tends to k for n^k, and grows like n for an exponential.
   const std::vector<double> steps = last_steps(
       degrees, kRatios, [](double before, double d, double i) { return i * (d / before - 1); });
-  const bool grows =
-      steps.back() / steps.front() > 1 + (n / (n - static_cast<double>(steps.size()) + 1) - 1) / 2;
+  const bool grows = steps.back() / steps.front() >
+                     1 + 0.4 * (n / (n - static_cast<double>(steps.size()) + 1) - 1);
   const std::vector<double> ratios =
       last_steps(degrees, kRatios, [](double before, double d, double) { return d / before; });
   const std::vector<double> slopes =

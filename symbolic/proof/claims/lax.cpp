@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "symbolic/functions/spectral_coefficients.hpp"
 #include "symbolic/proof/claims/claim.hpp"
@@ -85,16 +86,23 @@ Ranks ranks_of(Prover& prover, const std::vector<Polynomial>& known,
   return result;
 }
 
-/// Whether the motion keeps f, on the level if there is one. The spectrum of L does that; a part of
-/// a function that is not polynomial in the spectral parameter, as of x/(s - x), need not.
+bool vanishes_on(Prover& prover, const Polynomial& f, const Level& level,
+                 const std::function<GiNaC::ex()>& by_ginac) {
+  Proof proof;
+  prover.decide(proof, {{"the function on the level", f, by_ginac}}, level);
+  return proof.verdict == Verdict::proved;
+}
+
+/// Whether the motion keeps f, on the level if there is one, where it is more than a constant. The
+/// spectrum of L is kept; a part of a function that is not polynomial in the spectral parameter, as
+/// of x/(s - x), need not be.
 bool is_kept(Prover& prover, const Polynomial& f, const Level& level) {
+  const auto by_ginac = [&] { return prover.ring().expression(f); };
+  if (!level.empty() && vanishes_on(prover, f, level, by_ginac)) return false;
   const Polynomial rate = prover.rate(f);
   if (prover.is_zero(rate)) return true;
-  if (level.empty()) return false;
-  Proof proof;
-  const auto by_ginac = [&] { return prover.model().rate(prover.ring().expression(f)); };
-  prover.decide(proof, {{"the rate on the level", rate, by_ginac}}, level);
-  return proof.verdict == Verdict::proved;
+  return !level.empty() &&
+         vanishes_on(prover, rate, level, [&] { return prover.model().rate(by_ginac()); });
 }
 
 /// The integrals that follow from a proved Lax pair; constants and repetitions left out. On a level
@@ -121,6 +129,7 @@ std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
                                                prover.dimension());
     }
     for (Polynomial& f : parts) {
+      f = ring.reduced(std::move(f));  // I^2 is -1
       const std::vector<Polynomial> slopes = prover.gradient(f);
       const bool constant = std::all_of(slopes.begin(), slopes.end(), [&](const Polynomial& slope) {
         return prover.is_zero(slope);

@@ -50,6 +50,17 @@ Model free_particles(const std::string& lax) {
       lax);
 }
 
+/// The pair of Goryachev and Chaplygin is complex, and its spectrum real: I^2 is -1. What is zero
+/// on (M, g) = 0 is none of its integrals.
+TEST(SpectrumCount, OfAComplexPairMayBeReal) {
+  const Proof proof = lax_of(bundled("goryachev-chaplygin-lax"));
+  EXPECT_EQ(proof.integrals.size(), 3U);
+  for (const std::string& integral : proof.integrals)
+    EXPECT_EQ(integral.find('I'), std::string::npos) << integral;
+  ASSERT_TRUE(proof.spectrum);
+  EXPECT_EQ(proof.spectrum->verdict, Verdict::proved) << proof.spectrum->reason;
+}
+
 // One at a = 0 and two at a = 1, the only values.
 TEST(SpectrumCount, ARankThatDiffersFromPieceToPieceIsNotSaid) {
   const auto evidence = [](const std::string& assume) {
