@@ -12,6 +12,25 @@
 namespace casimir::tools {
 namespace {
 
+/// Writes a letter for I.
+class LetterForI : public GiNaC::map_function {
+ public:
+  explicit LetterForI(GiNaC::symbol letter) : letter_(std::move(letter)) {}
+
+  bool found() const { return found_; }
+  GiNaC::ex operator()(const GiNaC::ex& e) override {
+    if (!GiNaC::is_a<GiNaC::numeric>(e)) return e.map(*this);
+    const auto& number = GiNaC::ex_to<GiNaC::numeric>(e);
+    if (number.is_real()) return e;
+    found_ = true;
+    return number.real() + number.imag() * letter_;
+  }
+
+ private:
+  GiNaC::symbol letter_;
+  bool found_ = false;
+};
+
 using GiNaC::ex;
 using typeset::Math;
 
@@ -184,6 +203,10 @@ void Notation::make_dag(const std::vector<Triple>& vectors, std::size_t moving) 
   for (const LaxPair& pair : model_.lax_pairs) {
     if (pair.spectral) add_symbols({*pair.spectral}, 0);
   }
+  if (model_.complex_numbers) {
+    add_symbols({imaginary_}, 0);
+    paper_[imaginary_.get_name()] = typeset::letter("i");
+  }
   tell_names_apart();
   add_arbitrary_functions();
   dag_ = std::make_unique<codegen::Dag>(symbols_, degrees_);
@@ -250,14 +273,16 @@ void Notation::add_arbitrary_functions() {
   add_symbols(ordered, 1);
 }
 
-/// Products of conjugates have imaginary factors, and are real when they are multiplied out.
+/// Products of conjugates have imaginary factors, and are real when they are multiplied out. What
+/// is not, as an entry of a Lax pair, is written with a letter for I.
 codegen::Scaled Notation::converted(const ex& e) const {
   const ex shown = stand_ins_.empty() ? e : e.subs(stand_ins_, GiNaC::subs_options::no_pattern);
-  try {
-    return dag_->convert(shown);
-  } catch (const ModelError&) {
-    return dag_->convert(shown.expand());
-  }
+  if (!model_.complex_numbers) return dag_->convert(shown);
+  LetterForI as_it_is(imaginary_), multiplied_out(imaginary_);
+  const ex with_letter = as_it_is(shown);
+  if (!as_it_is.found()) return dag_->convert(shown);
+  const ex expanded = multiplied_out(shown.expand());
+  return dag_->convert(multiplied_out.found() ? with_letter : expanded);
 }
 
 Math Notation::on_paper(const std::string& symbol) const {

@@ -82,6 +82,7 @@ class Notation {
   std::map<std::string, typeset::Math> paper_;  ///< of symbols that are not written as their names
   GiNaC::exmap
       stand_ins_;  ///< for values of arbitrary functions: symbols named as they are written
+  GiNaC::symbol imaginary_{"I"};
   std::vector<GiNaC::symbol> symbols_;
   std::vector<int> degrees_;
   std::unique_ptr<codegen::Dag> dag_;

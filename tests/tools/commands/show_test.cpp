@@ -41,6 +41,15 @@ TEST(Show, PrintsBracketHamiltonianAndEquations) {
             run({"show", "kovalevskaya", "--json"}).json());
 }
 
+/// Products of conjugates are real; what is not has a letter for I.
+TEST(Show, WritesAComplexLaxPair) {
+  const Outcome text = run({"show", "goryachev-chaplygin-lax"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_TRUE(has(text.out, "A =  [[M3*I - u*I/2, -I],")) << text.out;
+  const Outcome latex = run({"show", "goryachev-chaplygin-lax", "--format", "latex"});
+  EXPECT_TRUE(has(latex.out, "-i")) << latex.out;
+}
+
 TEST(Show, IsTheSameInEveryRun) {
   for (const char* format : {"text", "latex", "json"}) {
     const std::string first = run({"show", "steklov", "--format", format}).out;
