@@ -23,6 +23,14 @@ std::string heading(const std::string& words) { return "<h3>" + html::text(words
 
 const std::string kEqual = "<math><mo form=\"infix\">=</mo></math> ";
 
+/// The common zero level of functions; empty for none.
+std::string level(const std::vector<Written>& on) {
+  std::string text;
+  for (const Written& f : on) text += mathml(f.math) + kEqual;
+  if (text.empty()) return text;
+  return " <span class=\"on\">on " + text + "<math><mn>0</mn></math></span>";
+}
+
 /// Formulas with their equal signs below each other; where a left side is long, below it.
 std::string equations(const std::vector<Formula>& formulas) {
   constexpr std::size_t kLongLeft = 30;  // letters of its text
@@ -30,12 +38,9 @@ std::string equations(const std::vector<Formula>& formulas) {
       formulas, [](const Formula& f) { return f.left.text.size() > kLongLeft; });
   std::string text = fmt::format("<div class=\"equations{}\">\n", stacked ? " stacked" : "");
   for (const Formula& f : formulas) {
-    std::string on;
-    for (const Written& level : f.on) on += mathml(level.math) + kEqual;
     text += "<div class=\"left\">" + mathml(f.left.math) + "</div><div class=\"right\">" + kEqual +
             mathml(f.right.math);
-    if (!on.empty()) text += " <span class=\"on\">on " + on + "<math><mn>0</mn></math></span>";
-    text += "</div>\n";
+    text += level(f.on) + "</div>\n";
   }
   return text + "</div>\n";
 }
@@ -135,7 +140,8 @@ std::string lax_pairs(const SystemView& view) {
   for (const LaxView& pair : view.lax_pairs) {
     text += heading("Lax pair");
     text += "<div class=\"scroll display\">" + kLaxEquation +
-            (pair.spectral ? " for every " + mathml(pair.spectral->math) : "") + "</div>\n";
+            (pair.spectral ? " for every " + mathml(pair.spectral->math) : "") + level(pair.on) +
+            "</div>\n";
     for (const auto& [name, matrix] : {std::pair{"L", &pair.l}, std::pair{"A", &pair.a}}) {
       text +=
           fmt::format("<div class=\"scroll display\"><math><mi>{}</mi><mo>=</mo></math>{}</div>\n",

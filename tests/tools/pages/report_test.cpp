@@ -119,6 +119,18 @@ duration = "1"
   EXPECT_NE(survey.out.find("free is proved where a != 0"), std::string::npos) << survey.out;
 }
 
+TEST(Report, AComplexLaxPairStandsWithItsLevel) {
+  const Folder folder;
+  const Outcome outcome =
+      run_in(folder, {"report", "goryachev-chaplygin-lax", "--budget", "0", "--output", "p.html"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string page = file_text(folder.path() / "p.html");
+  const std::size_t pair = page.find("<mover accent=\"true\"><mi>L</mi>");
+  ASSERT_NE(pair, std::string::npos);
+  const std::string said = page.substr(pair, page.find("</div>", pair) - pair);
+  EXPECT_NE(said.find("class=\"on\">on "), std::string::npos) << said;
+}
+
 TEST(Report, OfAllCasesHasAnIndexWhoseLinksLead) {
   const Folder folder, cases;
   const std::string oscillator =
