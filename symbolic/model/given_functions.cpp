@@ -15,9 +15,15 @@ namespace {
 
 using GiNaC::ex;
 
-/// A polynomial of so high a degree; `which` makes those of several functions different.
+/// A polynomial of so high a degree, or a small number for 0: there is a domain that asks a
+/// function to be small. `which` makes those of several functions different.
 ex choice_of(const std::vector<GiNaC::symbol>& arguments, int degree, int which,
              std::string& text) {
+  if (degree == 0) {
+    const cln::cl_RA small = cln::cl_RA(1 + which) / 10;
+    text = rational_text(small);
+    return GiNaC::numeric(small);
+  }
   const int sign = degree < 0 ? -1 : 1;
   const int power = sign * degree;
   ex sum = 0;
@@ -179,7 +185,7 @@ NamedExpression GivenFunctions::put(NamedExpression f) const {
 
 std::vector<GivenFunctions> function_choices(const Model& model) {
   std::vector<GivenFunctions> result;
-  for (const int degree : {1, 2, 3, -2}) {
+  for (const int degree : {1, 2, 3, -2, 0}) {
     result.push_back({model.limits, {}, {}, model.complex_numbers});
     int which = 0;
     for (const GiNaC::symbol& parameter : model.parameters) {

@@ -42,7 +42,7 @@ std::vector<GiNaC::ex> lost_of_functions_in(
     const GiNaC::ex& expression, const GiNaC::exmap& values,
     const std::map<std::string, std::vector<GiNaC::ex>>& lost, const Limits& limits);
 
-/// Different choices, simple ones: of degrees 1, 2 and 3, and a negative one.
+/// Different choices, simple ones: of degrees 1, 2 and 3, a negative one, and small numbers.
 std::vector<GivenFunctions> function_choices(const Model& model);
 
 /// A case with the functions that a scene gives, and that scene, whose parameters are no functions.

@@ -44,6 +44,37 @@ TEST(MapFunctions, MapsOfTheStandardKindHaveInverses) {
       map_of(kPhaseSpaceOfPlane + "[map]\nx = \"x^2 + y\"\ny = \"x^2 - y\"\n")));
 }
 
+/// A rotation whose sine is tau(H): a claim is about something only for functions that are small.
+TEST(MapFunctions, ADomainMayAskThemToBeSmall) {
+  const auto rotation = [](const std::string& sign) {
+    return map_of(R"toml(
+[phase_space]
+variables = ["q", "p"]
+canonical = true
+domain = ["1 - S^2 > 0"]
+[functions]
+tau = ["energy"]
+[definitions]
+H = "q^2 + p^2"
+S = "tau(H)"
+C = "sqrt(1 - S^2)"
+[map]
+q = "C*q + S*p"
+p = "C*p )toml" + sign +
+                  R"toml( S*q"
+[integrals]
+energy = "H"
+)toml");
+  };
+  const MapModel right = rotation("-"), wrong = rotation("+");
+  for (const auto& [kind, name] :
+       {std::pair{ClaimKind::map, "Poisson map"}, {ClaimKind::integral, "energy"}}) {
+    const Proof proof = proof_of(right, kind, name);
+    EXPECT_EQ(proof.verdict, Verdict::proved) << name << ": " << proof.reason;
+    EXPECT_EQ(verdict_of(wrong, kind, name), Verdict::refuted) << name;
+  }
+}
+
 TEST(MapFunctions, ADensityHasASignWithoutThem) {
   const auto of = [](const std::string& density) {
     return proof_of(map_of("[phase_space]\nvariables = [\"x\", \"y\"]\n[functions]\nU = [\"r\"]\n"
