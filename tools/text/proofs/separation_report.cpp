@@ -12,6 +12,13 @@ namespace {
 using structure::Separation;
 using structure::SeparationReport;
 
+/// The discriminant of three roots fills a page.
+std::string beginning_of(const std::string& text) {
+  constexpr std::size_t kLongest = 160;
+  if (text.size() <= kLongest) return text;
+  return text.substr(0, text.rfind(' ', kLongest)) + " .. (whole with --json)";
+}
+
 nlohmann::ordered_json json_of(const Separation& own) {
   nlohmann::ordered_json brackets = nlohmann::ordered_json::object();
   for (const auto& [label, text] : own.bivector) brackets[label] = text;
@@ -97,8 +104,10 @@ void print_separation(const Separation& own) {
   line("the integrals separate in them and their momenta", own.separated);
   if (!own.reason.empty()) fmt::print("    {}\n", own.reason);
   if (own.separated != Verdict::proved) return;
+  std::vector<std::string> nonzero;
+  for (const std::string& one : own.nonzero) nonzero.push_back(beginning_of(one));
   fmt::print("    near each point of the leaves where these are not zero: {}\n",
-             fmt::join(own.nonzero, "; "));
+             fmt::join(nonzero, "; "));
   line(own.staeckel == Verdict::proved
            ? "Staeckel form: a sum of the integrals is a function of one root and its momentum"
            : "Staeckel form with polynomials in one root (none was found)",
