@@ -12,6 +12,7 @@
 #include "symbolic/discrete/values_between_steps.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/model/given_functions.hpp"
+#include "symbolic/proof/claims/density.hpp"
 #include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
 #include "symbolic/proof/generic_rank.hpp"
@@ -63,6 +64,9 @@ void say_where_composition_is(const Model& model, const Claim& whole, Proof& pro
   add_conditions(proof, nothing.where);
 }
 
+/// Something to be said of a claim beside its proof; empty for nothing.
+using Note = std::function<std::string(Prover&)>;
+
 /// What every step keeps at all points, the composition keeps; of the first step the points are
 /// those at which the assumptions hold, those of the others are where the ones before have led.
 /// Where a step does not keep it, or not without a condition, or what is kept need not have a value
@@ -70,15 +74,16 @@ void say_where_composition_is(const Model& model, const Claim& whole, Proof& pro
 ///
 /// \param kept   the functions that the claim is about, beside the map
 /// \param level  on which it is claimed
+/// \param note   what there is to be said of it beside
 Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept, const Functions& level,
-                    const std::function<Claim(const MapModel&)>& claim_of) {
+                    const std::function<Claim(const MapModel&)>& claim_of, const Note& note) {
   std::vector<Claim> parts;
   for (const MapModel& step : map.steps) parts.push_back(claim_of(step));
   Claim claim = parts.front();
   for (const Claim& part : parts)
     claim.expressions.insert(claim.expressions.end(), part.expressions.begin(),
                              part.expressions.end());
-  claim.decide = [&map, kept, level, parts, claim_of](Prover& prover, Proof& proof) {
+  claim.decide = [&map, kept, level, parts, claim_of, note](Prover& prover, Proof& proof) {
     if (!have_values_between_steps(map, kept)) return decide_whole(map, claim_of(map), proof);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Proof own = decided_alone(map.steps[i].base, parts[i]);
@@ -103,15 +108,17 @@ Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept, const Func
     say_where_composition_is(map.base, claim_of(map), proof);
     // What is said of a step, as that it reverses the orientation, need not hold of them all.
     proof.evidence = fmt::format("each of the {} steps keeps it", parts.size());
+    if (const std::string text = note ? note(prover) : ""; !text.empty())
+      proof.evidence += "; " + text;
   };
   return claim;
 }
 
 Claim by_steps(const MapModel& map, ClaimKind kind, const std::string& name,
                const std::vector<ex>& kept, const Functions& level,
-               const std::function<Claim(const MapModel&)>& claim_of) {
+               const std::function<Claim(const MapModel&)>& claim_of, const Note& note = {}) {
   return or_without_value(kind, name, [&] {
-    return map.steps.empty() ? claim_of(map) : kept_by_steps(map, kept, level, claim_of);
+    return map.steps.empty() ? claim_of(map) : kept_by_steps(map, kept, level, claim_of, note);
   });
 }
 
@@ -240,7 +247,8 @@ Claim invariant_relation_claim(const MapModel& map, const NamedExpression& f, co
 Claim measure_claim(const MapModel& map, const NamedExpression& density) {
   return by_steps(
       map, ClaimKind::measure, density.name, values_of(Functions{density}), {},
-      [density](const MapModel& own) { return measure_claim_of_one_map(own, density); });
+      [density](const MapModel& own) { return measure_claim_of_one_map(own, density); },
+      [density](Prover& prover) { return note_on_signs(prover, density.value); });
 }
 
 Claim casimir_claim(const MapModel& /*map*/, const NamedExpression& f, const Functions& on) {

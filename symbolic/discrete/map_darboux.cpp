@@ -324,8 +324,9 @@ void DarbouxSearch::take(const Row& coefficients, const search::Monomials& monom
 
 void DarbouxSearch::search_with(const Exponents& exponents, const search::Monomials& monomials) {
   const std::size_t size = monomials.size();
-  const std::vector<Element> numbers =
+  const auto [numbers, others] =
       common_eigenvalues({pencil(exponents, 0, size), pencil(exponents, size, size)});
+  result_.has_conjugates = result_.has_conjugates || others;
   const bool constant = std::ranges::all_of(exponents, [](int e) { return e == 0; });
   for (const Element number : numbers) {
     if (constant && number == 1) continue;  // integrals
@@ -375,7 +376,8 @@ void DarbouxSearch::keep_combination(const std::vector<cln::cl_I>& powers) {
   if (proof.verdict != Verdict::proved) return;
   result_.combinations.push_back({density ? search::DarbouxCombination::Kind::multiplier
                                           : search::DarbouxCombination::Kind::integral,
-                                  function.name, true, proof.verdict});
+                                  function.name, true, proof.verdict,
+                                  evidence_and_conditions(proof)});
 }
 
 /// Products of powers whose cofactors cancel, up to a sign: then their squares do.
@@ -444,7 +446,12 @@ MapDarboux find_map_darboux(const MapModel& map, int degree, const search::Watch
     throw search::TooMuchMemory(fmt::format(
         "{:g} monomials up to the degree {}: the pencils of cofactors are made for {:g}", size,
         degree, kMostMonomials));
-  return DarbouxSearch(map, degree, watch).find();
+  MapDarboux found = DarbouxSearch(map, degree, watch).find();
+  if (const auto thin = thin_domain_of(map)) {
+    found.complete = false;
+    found.reason = *thin;
+  }
+  return found;
 }
 
 }  // namespace casimir::discrete

@@ -24,8 +24,11 @@ struct MapDarboux {
   bool has_jacobian = true;  ///< these are among the factors
   /// Proved: every other P up to the degree whose cofactor is a number times a product of powers of
   /// the factors is a product of those found, of integrals, and of combinations of those with one
-  /// cofactor; up to factors with coefficients that are no rational numbers.
+  /// cofactor; all with rational coefficients.
   bool complete = false;
+  /// Some were seen whose coefficients are no rational numbers: x + sqrt(3) y and x - sqrt(3) y.
+  /// With false there may be such.
+  bool has_conjugates = false;
   std::string reason;
 };
 

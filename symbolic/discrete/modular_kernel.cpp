@@ -84,7 +84,7 @@ std::optional<std::vector<cln::cl_RA>> rationals_from(const std::vector<Element>
   return result;
 }
 
-std::vector<Element> common_eigenvalues(const std::vector<Pencil>& pencils) {
+Eigenvalues common_eigenvalues(const std::vector<Pencil>& pencils) {
   nmod_poly_t common, own;
   nmod_poly_init(common, kPrime);
   nmod_poly_init(own, kPrime);
@@ -95,15 +95,18 @@ std::vector<Element> common_eigenvalues(const std::vector<Pencil>& pencils) {
     nmod_mat_charpoly(own, quotient.raw());
     nmod_poly_gcd(common, common, own);
   }
-  std::vector<Element> result;
+  Eigenvalues result;
   if (nmod_poly_degree(common) > 0) {
     nmod_poly_factor_t roots;
     nmod_poly_factor_init(roots);
-    nmod_poly_roots(roots, common, 0);
+    nmod_poly_roots(roots, common, 1);
+    slong in_field = 0;
     for (slong i = 0; i < roots->num; ++i) {
       const Element root = nmod_neg(nmod_poly_get_coeff_ui(roots->p + i, 0), common->mod);
-      if (root != 0) result.push_back(root);
+      if (root != 0) result.numbers.push_back(root);
+      in_field += roots->exp[i];
     }
+    result.others = in_field < nmod_poly_degree(common);
     nmod_poly_factor_clear(roots);
   }
   nmod_poly_clear(own);

@@ -28,9 +28,15 @@ struct Pencil {
   std::vector<std::vector<Element>> a, b;
 };
 
-/// The numbers c, not 0, at which all pencils have a vector v other than 0, or more; those with a
-/// singular B say nothing.
-std::vector<Element> common_eigenvalues(const std::vector<Pencil>& pencils);
+/// Eigenvalues that pencils have in common.
+struct Eigenvalues {
+  std::vector<Element> numbers;  ///< those of the field that are not 0
+  bool others = false;           ///< there are some in an extension of the field
+};
+
+/// The numbers c at which all pencils have a vector v other than 0, or more; those with a singular
+/// B say nothing.
+Eigenvalues common_eigenvalues(const std::vector<Pencil>& pencils);
 
 /// Fractions with numerators and denominators below 2^30 that are these residues; empty where there
 /// are none.

@@ -61,8 +61,8 @@ std::size_t ModularProgram::compile(const GiNaC::ex& e) {
     return cln::minusp(exponent) ? add({Kind::inverse, power, 0, 0}) : power;
   }
   throw ModelError(
-      fmt::format("{} is no rational function with rational coefficients, and degrees are those "
-                  "of rational maps",
+      fmt::format("{} is no rational function with rational coefficients: the degrees of a map "
+                  "and searches are for maps that are made of such",
                   printable(fmt::format("{}", fmt::streamed(e)), 200)));
 }
 

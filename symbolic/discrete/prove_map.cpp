@@ -7,6 +7,7 @@
 #include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/claims/claim_kinds.hpp"
 #include "symbolic/proof/run_claims.hpp"
+#include "symbolic/proof/thin_domain.hpp"
 
 namespace casimir {
 namespace {
@@ -101,6 +102,24 @@ std::vector<Proof> pending(const MapModel& map, const Candidates& candidates) {
 
 Proof discrete::prove_integral(const MapModel& map, const NamedExpression& f) {
   return decide_claims(map.base, {integral_claim(map, f, {})}, Meaningless::thrown, {}).front();
+}
+
+std::optional<std::string> discrete::thin_domain_of(const MapModel& map) {
+  std::vector<GiNaC::ex> functions = map.next;
+  functions.insert(functions.end(), map.next_domain.begin(), map.next_domain.end());
+  // Quotients of polynomials have values at almost all points, and may be large.
+  std::erase_if(functions,
+                [](const GiNaC::ex& f) { return f.info(GiNaC::info_flags::rational_function); });
+  if (functions.empty() && map.base.assumptions.empty()) return std::nullopt;
+  Prover prover(map.base, functions, Subject::functions);
+  return thin_domain(prover);
+}
+
+std::string discrete::evidence_and_conditions(const Proof& proof) {
+  std::string text = proof.evidence;
+  for (const std::string& condition : proof.where)
+    text += (text.empty() ? "where " : ", where ") + condition;
+  return text;
 }
 
 Proof discrete::prove_density(const MapModel& map, const NamedExpression& density) {

@@ -6,13 +6,12 @@
 
 #include <algorithm>
 
+#include "symbolic/discrete/jet_field.hpp"
 #include "symbolic/discrete/minors.hpp"
 #include "symbolic/discrete/modular_kernel.hpp"
 #include "symbolic/discrete/modular_program.hpp"
 #include "symbolic/discrete/prove_candidate.hpp"
 #include "symbolic/functions/function_ring.hpp"
-#include "symbolic/proof/prover.hpp"
-#include "symbolic/proof/thin_domain.hpp"
 #include "symbolic/search/finder.hpp"
 #include "symbolic/search/modular/monomials.hpp"
 
@@ -33,21 +32,12 @@ struct Scalar {
   }
 };
 
-std::vector<ex> next_and_slopes(const MapModel& map) {
-  std::vector<ex> functions = map.next;
-  for (const ex& next : map.next) {
-    for (const GiNaC::symbol& x : map.base.variables) functions.push_back(next.diff(x));
-  }
-  return functions;
-}
-
 class Search {
  public:
   Search(const MapModel& map, int degree, const search::Watch& watch)
       : map_(map),
         watch_(watch),
         degree_(degree),
-        program_(map.base.symbols(), next_and_slopes(map)),
         next_(map.base.symbols(), map.next),
         monomials_(search::all_monomials(std::vector<int>(map.base.variables.size(), 1), degree)),
         ring_(map.base.symbols(), {}, {}, map.base.limits) {
@@ -58,6 +48,7 @@ class Search {
   }
 
   MapSearch find() {
+    draw_steps();
     find_polynomials();
     find_fractions();
     find_densities();
@@ -85,37 +76,48 @@ class Search {
     const std::size_t n = map_.base.variables.size();
     constexpr int kTrials = 100;
     for (int trial = 0; trial < kTrials; ++trial) {
-      Row x;
-      for (std::size_t i = 0; i < n; ++i) x.push_back(field_.random(random_));
-      Row arguments = x;
-      arguments.insert(arguments.end(), parameters_.begin(), parameters_.end());
-      const auto values = program_.run(arguments);
-      if (!values) continue;
-      std::vector<std::vector<Scalar>> slopes(n);
+      Row x, next;
+      std::vector<Jet> arguments;
       for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) slopes[i].push_back({(*values)[n + i * n + j]});
+        x.push_back(field_.random(random_));
+        arguments.push_back(JetField::variable(x[i], i, n));
+      }
+      for (const Element p : parameters_) arguments.push_back(JetField::constant(p));
+      const auto values = next_.run_over(arguments, JetField());
+      if (!values) continue;
+      std::vector<std::vector<Scalar>> slopes(n, std::vector<Scalar>(n));
+      for (std::size_t i = 0; i < n; ++i) {
+        next.push_back((*values)[i].value);
+        for (std::size_t j = 0; j < (*values)[i].slopes.size(); ++j)
+          slopes[i][j].value = (*values)[i].slopes[j];
       }
       const auto minors = maximal_minors(slopes, Scalar{1}, [&](const Scalar& a, const Scalar& b) {
         return Scalar{field_.multiply(a.value, b.value)};
       });
       const auto all = minors.find((1U << n) - 1);
-      return {values_at(x, monomials_),
-              values_at({values->begin(), values->begin() + long(n)}, monomials_),
+      return {values_at(x, monomials_), values_at(next, monomials_),
               all == minors.end() ? 0 : all->second.value};
     }
     throw ModelError("the map has no value at random points: a denominator is zero");
   }
 
-  /// The null space of conditions, one for each of a few more random steps than there are unknowns.
-  std::vector<Row> solutions(std::size_t unknowns,
-                             const std::function<Row(const Step&)>& condition) {
+  /// A few more steps than there are monomials, for polynomial integrals and for densities.
+  void draw_steps() {
     constexpr std::size_t kMore = 12;
-    std::vector<Row> rows;
-    for (std::size_t k = 0; k < unknowns + kMore; ++k) {
-      if (k % 16 == 0) watch_.tick(static_cast<double>(k) / static_cast<double>(unknowns + kMore));
-      rows.push_back(condition(random_step()));
+    watch_.begin("random steps");
+    const std::size_t count = monomials_.size() + kMore;
+    while (steps_.size() < count) {
+      if (steps_.size() % 16 == 0)
+        watch_.tick(static_cast<double>(steps_.size()) / static_cast<double>(count));
+      steps_.push_back(random_step());
     }
-    return null_space(rows, unknowns);
+  }
+
+  /// The null space of a condition of each step.
+  std::vector<Row> solutions(const std::function<Row(const Step&)>& condition) const {
+    std::vector<Row> rows;
+    for (const Step& step : steps_) rows.push_back(condition(step));
+    return null_space(rows, monomials_.size());
   }
 
   /// Many residues of larger fractions are those of small ones as well, which are not proved then.
@@ -175,7 +177,7 @@ class Search {
   void find_polynomials() {
     watch_.begin("polynomial integrals");
     const std::size_t m = monomials_.size();
-    const std::vector<Row> space = solutions(m, [&](const Step& step) {
+    const std::vector<Row> space = solutions([&](const Step& step) {
       Row row;
       for (std::size_t i = 0; i < m; ++i)
         row.push_back(field_.subtract(step.after[i], step.before[i]));
@@ -298,7 +300,7 @@ class Search {
 
   /// P with P(x') = sign * det Dx' * P(x): a measure has no orientation, which the map may reverse.
   std::vector<Row> multiplied_by_jacobian(int sign) {
-    return solutions(monomials_.size(), [&](const Step& step) {
+    return solutions([&](const Step& step) {
       Row row;
       for (std::size_t i = 0; i < monomials_.size(); ++i) {
         const Element image = field_.multiply(step.jacobian, step.before[i]);
@@ -322,11 +324,9 @@ class Search {
       if (!p || p->is_zero()) continue;
       const ex density = 1 / ring_.expression(*p);
       std::string text = p->is_constant() ? "1" : fmt::format("1/({})", ring_.text(*p));
-      Proof proof = prove_density(map_, {text, density, {}});
+      const Proof proof = prove_density(map_, {text, density, {}});
       if (proof.verdict == Verdict::proved) {
-        for (const std::string& condition : proof.where)
-          proof.evidence += (proof.evidence.empty() ? "where " : ", where ") + condition;
-        result_.densities.push_back({density, std::move(text), std::move(proof.evidence)});
+        result_.densities.push_back({density, std::move(text), evidence_and_conditions(proof)});
         proved.push_back(*p);
       } else {
         leave_open();
@@ -341,11 +341,11 @@ class Search {
   int degree_;
   PrimeField field_;
   std::mt19937_64 random_{20190101};
-  ModularProgram program_;  ///< the map and its Jacobian matrix
   ModularProgram next_;
   search::Monomials monomials_;
   FunctionRing ring_;
   Row parameters_;
+  std::vector<Step> steps_;
   MapSearch result_;
 };
 
@@ -366,14 +366,7 @@ MapSearch search_map(const MapModel& map, int degree, const search::Watch& watch
           "'{}' is assumed, and a search is for generic values: a definition can say it", a.text));
   }
   MapSearch found = Search(map, degree, watch).find();
-  std::vector<GiNaC::ex> functions = map.next;
-  functions.insert(functions.end(), map.next_domain.begin(), map.next_domain.end());
-  // Quotients of polynomials have values at almost all points, and may be large.
-  std::erase_if(functions,
-                [](const GiNaC::ex& f) { return f.info(GiNaC::info_flags::rational_function); });
-  if (functions.empty() && map.base.assumptions.empty()) return found;
-  Prover prover(map.base, functions, Subject::functions);
-  if (const auto thin = thin_domain(prover)) {
+  if (const auto thin = thin_domain_of(map)) {
     found.no_polynomial = found.no_fraction = false;
     found.not_generic = found.reason = *thin;
   }

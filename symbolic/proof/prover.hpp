@@ -201,6 +201,8 @@ class Prover {
   /// Whether a real point of the constraints was found at which the function, and those of the
   /// claim, have values, and its own is not zero.
   bool is_nonzero_somewhere_on_constraints(const GiNaC::ex& f);
+  /// Whether one was found at which it is positive, a real function.
+  bool is_positive_somewhere_on_constraints(const GiNaC::ex& f);
   /// Whether it is shown that the function has no zero on the constraints.
   bool is_nowhere_zero_on_constraints(const Polynomial& p);
 

@@ -110,6 +110,12 @@ bool Prover::is_nonzero_somewhere_on_constraints(const ex& f) {
   return has_point_of_constraints(expressions, false);
 }
 
+bool Prover::is_positive_somewhere_on_constraints(const ex& f) {
+  std::vector<ex> expressions = claim_expressions();
+  expressions.push_back(GiNaC::pow(f, GiNaC::numeric(-1, 2)));
+  return has_point_of_constraints(expressions, false);
+}
+
 bool Prover::is_nowhere_zero_on_constraints(const Polynomial& p) {
   return vanishes_nowhere_on(p, level(model_.constraints));
 }

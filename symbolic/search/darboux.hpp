@@ -31,6 +31,7 @@ struct DarbouxCombination {
   std::string text;       ///< with the bases for their absolute values
   bool rational = false;  ///< a quotient of polynomials: whole exponents and no exponential
   Verdict verdict = Verdict::undecided;
+  std::string evidence = {};  ///< what the proof says beside, and where it holds
 };
 
 /// "integral", "multiplier" or "time_dependent".

@@ -58,34 +58,62 @@ bool has_imaginary_number(const GiNaC::ex& e) {
   return false;
 }
 
-/// Why the function is not known to be a density; empty where it is one. `both_signs` becomes
-/// whether points are found at which it is positive and others at which it is negative.
-std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_signs,
+/// The signs of a density at the points that are looked at.
+struct Signs {
+  bool positive = false, negative = false;
+
+  bool both() const { return positive && negative; }
+  void add(std::optional<int> sign) {
+    positive = positive || sign == 1;
+    negative = negative || sign == -1;
+  }
+};
+
+/// At points of the space, near to 0 and far from it too. The far ones are drawn by themselves, so
+/// that the points of other claims stay what they are.
+Signs signs_in_space(Prover& prover, const GiNaC::ex& density) {
+  // An arbitrary function has either sign, and no value at a point.
+  if (highest_derivative(density)) return {true, true};
+  std::vector<GiNaC::ex> domain = prover.domain();
+  std::erase_if(domain, [](const GiNaC::ex& e) { return highest_derivative(e).has_value(); });
+  constexpr int kPoints = 6, kWidePoints = 40;
+  Signs signs;
+  RealPoints& points = prover.real_points();
+  for (int i = 0; i < kPoints && !signs.both(); ++i) {
+    auto point = points.random(domain);
+    if (!point) break;
+    signs.add(point->evaluator().sign(density));
+  }
+  RealPoints own = points;
+  for (int i = 0; i < kWidePoints && !signs.both(); ++i) {
+    try {
+      RealPoint point = own.at(own.draw_wide());
+      if (own.admits(point, domain)) signs.add(point.evaluator().sign(density));
+    } catch (const NotCertified&) {
+      continue;
+    }
+  }
+  return signs;
+}
+
+bool is_nowhere_zero(Prover& prover, const GiNaC::ex& density) {
+  const FunctionRing& ring = prover.ring();
+  return ring.is_nowhere_zero(ring.lowest_terms(prover.convert(density)).first);
+}
+
+/// Why the function is not known to be a density; empty where it is one.
+/// \param signs  of it, where they were looked for
+std::string doubt_about(Prover& prover, const GiNaC::ex& density, Signs* signs,
                         std::vector<std::string>* where) {
   if (prover.ring().numerator(prover.convert(density)).is_zero())
     return "the density is identically zero, which is no measure";
   if (has_imaginary_number(density) && has_imaginary_number(density.expand()))
     return "the density is not shown to be real";
   if (GiNaC::is_a<GiNaC::numeric>(density)) return {};  // not 0, by the first line
-  // An arbitrary function has either sign, and no value at a point.
-  const bool arbitrary = highest_derivative(density).has_value();
-  bool positive = arbitrary;
-  bool negative = arbitrary;
-  std::vector<GiNaC::ex> domain = prover.domain();
-  std::erase_if(domain, [](const GiNaC::ex& e) { return highest_derivative(e).has_value(); });
-  constexpr int kPoints = 6;
-  for (int i = 0; i < kPoints && !(positive && negative); ++i) {
-    auto point = prover.real_points().random(domain);
-    if (!point) break;
-    const auto sign = point->evaluator().sign(density);
-    positive = positive || sign == 1;
-    negative = negative || sign == -1;
-  }
-  const FunctionRing& ring = prover.ring();
-  const bool nowhere_zero = ring.is_nowhere_zero(ring.lowest_terms(prover.convert(density)).first);
-  if (!positive && !negative && !nowhere_zero)
+  *signs = signs_in_space(prover, density);
+  const bool nowhere_zero = is_nowhere_zero(prover, density);
+  if (!signs->positive && !signs->negative && !nowhere_zero)
     return "no point was found at which the density has a real value that is not zero";
-  *both_signs = positive && negative && !(arbitrary && nowhere_zero);
   if (nowhere_zero) return {};
   const auto found = rank_with_conditions(prover, {{prover.convert(density)}});
   if (!found || !found->uneven.empty() || found->rank == 0)
@@ -93,6 +121,17 @@ std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_sig
   *where = found->nonzero;
   if (!found->where.empty()) where->push_back(found->where);
   return {};
+}
+
+/// Whether it has both signs where the case says something. An arbitrary function that is nowhere
+/// zero, as 1 + U^2, is not told to.
+std::string note_of(Prover& prover, const GiNaC::ex& density, const Signs& signs) {
+  if (!signs.both() || (highest_derivative(density) && is_nowhere_zero(prover, density))) return {};
+  const bool on_constraints = !prover.model().constraints.empty() && !highest_derivative(density);
+  if (on_constraints && !(prover.is_positive_somewhere_on_constraints(density) &&
+                          prover.is_positive_somewhere_on_constraints(-density)))
+    return {};
+  return "the density has both signs: it is a measure only on parts of the domain";
 }
 
 /// Whether the trace of K, of rates dc_i/dt = sum K_ij c_j of the constraints, vanishes on these,
@@ -245,17 +284,24 @@ void judge_density(Prover& prover, Proof& proof, const GiNaC::ex& density) {
   if (proof.verdict == Verdict::refuted && !prover.model().constraints.empty())
     proof.reason += fmt::format("; {}", kOnThem);
   if (proof.verdict != Verdict::proved) return;
-  bool both_signs = false;
-  proof.reason = doubt_about(prover, density, &both_signs, &proof.where);
+  Signs signs;
+  proof.reason = doubt_about(prover, density, &signs, &proof.where);
   if (!proof.reason.empty()) {
     proof.verdict = Verdict::undecided;
     return;
   }
-  if (both_signs)
-    proof.evidence = "the density has both signs: it is a measure only on parts of the domain";
-  if (!prover.model().constraints.empty())
-    proof.evidence += fmt::format("{}{}", proof.evidence.empty() ? "" : "; ", kOnThem);
-  require_nonzero_on_constraints(prover, proof, density);
+  if (!prover.model().constraints.empty()) {
+    proof.evidence = kOnThem;
+    require_nonzero_on_constraints(prover, proof, density);
+    if (proof.verdict != Verdict::proved) return;
+  }
+  if (const std::string note = note_of(prover, density, signs); !note.empty())
+    proof.evidence = note + (proof.evidence.empty() ? "" : "; ") + proof.evidence;
+}
+
+std::string note_on_signs(Prover& prover, const GiNaC::ex& density) {
+  if (GiNaC::is_a<GiNaC::numeric>(density)) return {};
+  return note_of(prover, density, signs_in_space(prover, density));
 }
 
 std::vector<Claim> measure_claims(const Model& model) {

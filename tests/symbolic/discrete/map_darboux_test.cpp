@@ -131,12 +131,33 @@ TEST(MapDarboux, ACofactorOfMinusOneGivesASquare) {
 }
 
 /// The eigenvalues of the rotation are no rational numbers, and those of its squares are: x^2 +
-/// y^2.
-TEST(MapDarboux, WithAlgebraicCofactorsAreLeftOpen) {
+/// y^2. y - sqrt(3) x is real.
+TEST(MapDarboux, WithAlgebraicCofactorsAreSaidToBe) {
   const auto found = discrete::find_map_darboux(rational_plane("x - y", "x + y"), 2);
   EXPECT_TRUE(std::ranges::any_of(
       found.found, [](const auto& own) { return own.text == "x^2 + y^2" && own.cofactor == "2"; }));
-  EXPECT_EQ(found.complete, found.reason.empty());
+  EXPECT_TRUE(found.has_conjugates);
+  const auto real = discrete::find_map_darboux(rational_plane("y", "3*x"), 1);
+  EXPECT_TRUE(real.found.empty());
+  EXPECT_TRUE(real.has_conjugates);
+  EXPECT_FALSE(discrete::find_map_darboux(rational_plane("y", "4*x"), 1).has_conjugates);
+}
+
+/// y/2 doubles areas backwards, where both preimages of 2 x/(1 - x^2) make up for each other.
+TEST(MapDarboux, DensitiesSayWhereTheyAreKept) {
+  const auto found = discrete::find_map_darboux(rational_plane("2*x/(1-x^2)", "y/2"), 2);
+  ASSERT_EQ(count_of(found, Combination::multiplier), 1);
+  EXPECT_NE(found.combinations[0].evidence.find("one to one"), std::string::npos);
+}
+
+/// On the line y = 0, which is all there is, x is one more.
+TEST(MapDarboux, AreNotAllWhereTheDomainIsThin) {
+  const MapModel map = map_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\ndomain = [\"-(y^2) >= 0\"]\n[map]\nx = \"2*x + "
+      "y\"\ny = \"y^2\"\n");
+  const auto found = discrete::find_map_darboux(map, 1);
+  EXPECT_FALSE(found.complete);
+  EXPECT_FALSE(found.reason.empty());
 }
 
 TEST(MapDarboux, AreLookedForWithNumbers) {

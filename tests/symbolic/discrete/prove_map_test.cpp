@@ -11,8 +11,8 @@ namespace {
 
 TEST(ProveMap, EveryBundledMapIsProved) {
   for (const char* name :
-       {"discrete-lagrange", "discrete-neumann", "henon-area-preserving", "kahan-clebsch",
-        "kahan-euler", "lyness", "mcmillan", "moser-veselov", "qrt"}) {
+       {"bobenko-lorbeer-suris", "discrete-lagrange", "discrete-neumann", "henon-area-preserving",
+        "kahan-clebsch", "kahan-euler", "lyness", "mcmillan", "moser-veselov", "qrt"}) {
     const MapModel map = bundled_map(name);
     EXPECT_EQ(overall(map.base, prove_map(map)), Verdict::proved) << name;
   }
@@ -410,6 +410,32 @@ TEST(ProveMap, ASearchSaysThatADensityIsALocalOne) {
       discrete::search_map(map_of(kPhaseSpaceOfPlane + "[map]\nx = \"x^2\"\ny = \"y/(2*x)\"\n"), 2);
   ASSERT_EQ(found.densities.size(), 1u);
   EXPECT_NE(found.densities[0].evidence.find("one to one"), std::string::npos);
+}
+
+/// A density is said to have both signs wherever these are, and not where the constraints leave
+/// one.
+TEST(ProveMap, TheSignsOfADensityAreThoseOnThePhaseSpace) {
+  const auto has_both_signs = [](const std::string& space, const std::string& density) {
+    const Proof proof = proof_of(map_of(space + "[[measure]]\ndensity = \"" + density + "\"\n"),
+                                 ClaimKind::measure);
+    EXPECT_EQ(proof.verdict, Verdict::proved) << density << ": " << proof.reason;
+    return proof.evidence.find("both signs") != std::string::npos;
+  };
+  const std::string turn = kPhaseSpaceOfPlane + "[map]\nx = \"y\"\ny = \"-x\"\n";
+  for (const char* density : {"100-x^2-y^2", "1/(16-(x^2+y^2)/25)", "x^2+y^2-1/1000"})
+    EXPECT_TRUE(has_both_signs(turn, density)) << density;
+  EXPECT_FALSE(has_both_signs(turn, "x^2+y^2"));
+  const std::string steps = kPhaseSpaceOfPlane +
+                            "[[map_step]]\nexpressions = { x = \"x + 1\" }\n"
+                            "[[map_step]]\nexpressions = { x = \"x - 3\" }\n";
+  EXPECT_TRUE(has_both_signs(steps, "1/y"));
+  EXPECT_FALSE(has_both_signs(steps, "1/(1+y^2)"));
+  const std::string circles =
+      "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\nconstraints = [\"x^2+y^2-1\", "
+      "\"z*(z-1)\"]\n[map]\nx = \"(3*x - 4*y)/5\"\ny = \"(4*x + 3*y)/5\"\nz = \"z\"\n";
+  EXPECT_FALSE(has_both_signs(circles, "1+z"));
+  EXPECT_FALSE(has_both_signs(circles, "2-z"));
+  EXPECT_TRUE(has_both_signs(circles, "2*z-1"));
 }
 
 }  // namespace

@@ -100,9 +100,13 @@ void print(const Model& base, int degree, const discrete::MapDarboux& found, dou
     fmt::print("  P = {}   C = {}   {}\n", own.text, own.cofactor, proved);
   if (found.complete)
     fmt::print(
-        "No others with such a C, beside their products with each other and with integrals and "
-        "sums of those with one C: {}\n",
-        proved);
+        "No others with rational coefficients and such a C, beside their products with each other "
+        "and with integrals and sums of those with one C: {}\n{}",
+        proved,
+        found.has_conjugates
+            ? "There seem to be some with coefficients that are algebraic numbers, real or "
+              "complex, which are not shown.\n"
+            : "");
   else
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                found.reason);
@@ -111,6 +115,8 @@ void print(const Model& base, int degree, const discrete::MapDarboux& found, dou
     fmt::print("  {}   {}   {}\n",
                own.kind == search::DarbouxCombination::Kind::multiplier ? "density" : "integral",
                own.text, verdict_text(own.verdict, colour));
+  for (const search::DarbouxCombination& own : found.combinations)
+    if (!own.evidence.empty()) fmt::print("    {}: {}\n", own.text, own.evidence);
   fmt::print("{}", whole_space_note(names_of(base.constraints)));
   fmt::print("{} found, {:.3f} s\n", found.found.size(), seconds);
 }

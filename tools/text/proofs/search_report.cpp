@@ -326,6 +326,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const search::Dar
     json["combinations"].push_back({{"kind", search::to_string(own.kind)},
                                     {"expression", own.text},
                                     {"verdict", to_string(own.verdict)}});
+    if (!own.evidence.empty()) json["combinations"].back()["evidence"] = own.evidence;
   }
   if (!report.reason.empty()) json["reason"] = report.reason;
   json["seconds"] = seconds;
