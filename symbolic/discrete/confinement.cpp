@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "symbolic/discrete/plane_factors.hpp"
 #include "symbolic/discrete/series_map.hpp"
 #include "symbolic/discrete/univariate.hpp"
 
@@ -13,6 +14,7 @@ namespace casimir::discrete {
 namespace {
 
 constexpr int kMostSteps = 12;
+constexpr std::size_t kFewPoints = 32;
 
 /// Whether a series has no pole in eps.
 bool is_finite(const Series& s, long shift = 0) {
@@ -141,14 +143,16 @@ std::optional<SingularOrbit> followed(const SeriesMap& map, const RandomLine& li
 /// Where on a line the Jacobian determinant has zeros or poles, or the map poles.
 struct SingularPlaces {
   std::set<Element> places;
-  bool outside = false;  ///< there are some that are not in the field
+  /// The numerator and the denominator of the determinant, and the common one of the coordinates.
+  std::vector<Univariate> polynomials;
+  std::size_t points = 0;  ///< that they were found from
 };
 
 void add_zeros(SingularPlaces& found, const Univariate& polynomial) {
+  found.polynomials.push_back(polynomial);
   if (polynomial.degree() <= 0) return;
   const std::vector<Element> zeros = polynomial.zeros();
   found.places.insert(zeros.begin(), zeros.end());
-  found.outside = found.outside || zeros.empty();
 }
 
 /// The image of a point of the field and the determinant there; empty where there is none. A number
@@ -175,15 +179,17 @@ std::optional<std::pair<std::vector<Element>, Element>> image_of(const SeriesMap
 }
 
 /// Empty where the degrees are too large, and for a map that is invertible nowhere.
+/// \param first  how many points are tried at first
 std::optional<SingularPlaces> places_on(const SeriesMap& map, const RandomLine& line,
-                                        const search::Watch& watch) {
-  constexpr std::size_t kFirstPoints = 32, kMostPoints = 4096;
+                                        const search::Watch& watch,
+                                        std::size_t first = kFewPoints) {
+  constexpr std::size_t kMostPoints = 4096;
   const SeriesField constants(1);
   const PrimeField residues(kSplittingPrime);
   const std::vector<Element> weights = map.random_point();
   std::vector<Element> t, determinants, sums;
   Element next = 1;
-  for (std::size_t points = kFirstPoints; points <= kMostPoints; points *= 2) {
+  for (std::size_t points = first; points <= kMostPoints; points *= 2) {
     for (; t.size() < points && next < 2 * kMostPoints; ++next) {
       if (next % 16 == 0) watch.tick(static_cast<double>(t.size()) / static_cast<double>(points));
       std::vector<Series> point;
@@ -204,6 +210,7 @@ std::optional<SingularPlaces> places_on(const SeriesMap& map, const RandomLine& 
     if (!determinant || !coordinate) continue;
     if (determinant->top.is_zero()) return std::nullopt;
     SingularPlaces found;
+    found.points = points;
     add_zeros(found, determinant->top);
     add_zeros(found, determinant->bottom);
     add_zeros(found, coordinate->bottom);
@@ -212,31 +219,153 @@ std::optional<SingularPlaces> places_on(const SeriesMap& map, const RandomLine& 
   return std::nullopt;
 }
 
-Confinement judged(SeriesMap map, const search::Watch& watch) {
+/// Whether points of all hypersurfaces were looked at, and recovered what they had lost: those of
+/// the field on a few lines need not lie on each, as y^2 = 17 has none where 17 is no square.
+///
+/// Over the field the equation of a hypersurface that is irreducible over the rational functions of
+/// the parameters has irreducible factors, which are conjugate, so that all do what one does. One
+/// without points has none with points for any parameters: its degree is a sum of degrees of such
+/// factors each time. Where no number is, points of all were seen.
+class HypersurfaceAudit {
+ public:
+  HypersurfaceAudit(SeriesMap map, const search::Watch& watch)
+      : map_(std::move(map)), watch_(watch) {}
+
+  bool is_passed() {
+    constexpr int kTrials = 12;
+    watch_.begin("hypersurfaces");
+    for (int k = 0; k < kTrials; ++k) {
+      watch_.tick(static_cast<double>(k) / kTrials);
+      map_.choose_parameters();
+      const std::optional<Unseen> unseen = unseen_on_plane();
+      if (!unseen) return false;
+      if (k == 0) {
+        never_seen_ = *unseen;
+      } else {
+        for (auto& [key, degrees] : never_seen_) {
+          const auto now = unseen->find(key);
+          if (now == unseen->end())
+            degrees.clear();
+          else
+            std::erase_if(degrees, [&](long d) { return !now->second.contains(d); });
+        }
+      }
+      if (std::ranges::all_of(never_seen_, [](const auto& own) { return own.second.empty(); }))
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  /// Sums of degrees of factors without points, by the polynomial and the power that they have in
+  /// it.
+  using Unseen = std::map<std::pair<std::size_t, unsigned long>, std::set<long>>;
+
+  struct LineOfPlane {
+    Element slope;
+    RandomLine line;
+    SingularPlaces singular;
+  };
+
+  std::optional<LineOfPlane> line_with(Element slope, std::size_t points) const {
+    const PrimeField field(kSplittingPrime);
+    RandomLine line{origin_, first_};
+    for (std::size_t i = 0; i < first_.size(); ++i)
+      line.direction[i] = field.add(first_[i], field.multiply(slope, second_[i]));
+    std::optional<SingularPlaces> singular = places_on(map_, line, watch_, points);
+    if (!singular) return std::nullopt;
+    return LineOfPlane{slope, std::move(line), std::move(*singular)};
+  }
+
+  /// Empty where something was not recovered, or not followed.
+  std::optional<Unseen> unseen_on_plane() {
+    origin_ = map_.random_point();
+    first_ = map_.random_point();
+    second_ = map_.random_point();
+    const auto lines = lines_of_plane();
+    if (!lines) return std::nullopt;
+    Unseen unseen;
+    for (std::size_t k = 0; k < lines->front().singular.polynomials.size(); ++k) {
+      std::vector<OnLine> one;
+      for (const LineOfPlane& own : *lines) one.push_back({own.slope, own.singular.polynomials[k]});
+      const auto factors = PlaneFactors::from_lines(one, kSplittingPrime);
+      if (!factors) return std::nullopt;
+      for (std::size_t f = 0; f < factors->size(); ++f) {
+        const std::optional<bool> good = recovers(*factors, f, *lines);
+        if (good == false) return std::nullopt;
+        if (!good) add(unseen[{k, factors->exponent(f)}], factors->degree(f));
+      }
+    }
+    return unseen;
+  }
+
+  static void add(std::set<long>& sums, long degree) {
+    std::set<long> with{degree};
+    for (const long sum : sums) with.insert(sum + degree);
+    sums.merge(with);
+  }
+
+  /// More than the degrees: an irreducible curve misses a line with the probability 1/2 at most.
+  std::optional<std::vector<LineOfPlane>> lines_of_plane() const {
+    constexpr long kHighestDegree = 100;
+    constexpr std::size_t kMoreLines = 16;
+    std::vector<LineOfPlane> lines;
+    std::size_t wanted = kMoreLines;
+    while (lines.size() < wanted) {
+      std::optional<LineOfPlane> next =
+          line_with(lines.size() + 1, lines.empty() ? kFewPoints : lines.back().singular.points);
+      if (!next) return std::nullopt;
+      for (const Univariate& p : next->singular.polynomials) {
+        if (p.degree() > kHighestDegree) return std::nullopt;
+        wanted = std::max(wanted, static_cast<std::size_t>(p.degree()) + kMoreLines);
+      }
+      lines.push_back(std::move(*next));
+    }
+    return lines;
+  }
+
+  /// Empty where none of the lines has a point of the factor.
+  std::optional<bool> recovers(const PlaneFactors& factors, std::size_t factor,
+                               const std::vector<LineOfPlane>& lines) const {
+    const PrimeField field(kSplittingPrime);
+    for (const LineOfPlane& own : lines) {
+      for (const Element t : own.singular.places) {
+        if (!factors.vanishes(factor, t, field.multiply(t, own.slope))) continue;
+        const std::optional<SingularOrbit> orbit = followed(map_, own.line, t);
+        return orbit && (orbit->lost == 0 || orbit->recovered);
+      }
+    }
+    return std::nullopt;
+  }
+
+  SeriesMap map_;
+  const search::Watch& watch_;
+  Unseen never_seen_;
+  std::vector<Element> origin_, first_, second_;
+};
+
+Confinement judged(const SeriesMap& given, const search::Watch& watch) {
   constexpr int kLines = 6;
   constexpr std::size_t kMostOrbits = 40;
+  SeriesMap map = given;
   Confinement result;
   result.steps = kMostSteps;
   std::map<std::array<int, 3>, int> seen;  // by `lost`, `recovered` or 0, and `until`
   std::size_t orbits = 0;
-  bool outside = false, inside = false;
   watch.begin("singularities");
   for (int k = 0; k < kLines && orbits < kMostOrbits; ++k) {
     map.choose_parameters();
     const RandomLine line{map.random_point(), map.random_point()};
     const std::optional<SingularPlaces> found = places_on(map, line, watch);
     if (!found) return result;
-    outside = outside || found->outside;
     for (const Element t : found->places) {
       if (++orbits > kMostOrbits) break;
       watch.tick(static_cast<double>(k) / kLines);
       const std::optional<SingularOrbit> orbit = followed(map, line, t);
       if (!orbit) return result;
-      inside = true;
       if (orbit->lost > 0) ++seen[{orbit->lost, orbit->recovered.value_or(0), orbit->until}];
     }
   }
-  if (outside && !inside) return result;
   result.kind = seen.empty() ? Confinement::Kind::none : Confinement::Kind::confined;
   for (const auto& [key, points] : seen) {
     const auto [lost, recovered, until] = key;
@@ -245,6 +374,8 @@ Confinement judged(SeriesMap map, const search::Watch& watch) {
         {lost, recovered == 0 ? std::nullopt : std::optional(recovered), until, points});
     if (recovered == 0) result.steps = std::min(result.steps, until);
   }
+  if (result.kind != Confinement::Kind::not_confined && !HypersurfaceAudit(map, watch).is_passed())
+    result.kind = Confinement::Kind::unclear;
   return result;
 }
 

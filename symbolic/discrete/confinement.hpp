@@ -23,10 +23,10 @@ struct Confinement {
   /// What became of the orbits.
   enum class Kind {
     none,          ///< no iterate lost anything
-    confined,      ///< what was lost came back in every orbit
+    confined,      ///< what was lost came back in every orbit, of each irreducible hypersurface one
     not_confined,  ///< in some orbit it did not within the steps
-    unclear  ///< too few terms of the series, too large degrees, no points over the field, or a
-             ///< map that is invertible nowhere
+    unclear  ///< too few terms of the series, too large degrees, a hypersurface without points
+             ///< over the field, or a map that is invertible nowhere
   };
   Kind kind = Kind::unclear;
   std::vector<SingularOrbit> orbits;  ///< those that lost something, by `lost` and `recovered`
@@ -44,8 +44,7 @@ std::string to_string(Confinement::Kind kind);
 /// recovered. The order in eps along a general line is that along the hypersurface.
 ///
 /// Confinement is neither sufficient for integrability (the map of Hietarinta and Viallet 1998 is
-/// confined, with positive entropy) nor said here of hypersurfaces at infinity, or of those without
-/// points over the field.
+/// confined, with positive entropy) nor said here of hypersurfaces at infinity.
 /// \throws ModelError  for a map that is not rational
 /// {
 Confinement confinement_of(const MapModel& map, const search::Watch& watch = {});

@@ -31,6 +31,8 @@ class SeriesField {
  public:
   explicit SeriesField(std::size_t most) : most_(most) {}
 
+  /// Whether all series are numbers, or powers of eps, or not known.
+  bool has_numbers_only() const { return most_ == 1; }
   Series constant(Element a) const;
   /// a + b eps.
   Series line(Element a, Element b) const;

@@ -37,6 +37,8 @@ class SeriesMap {
   SeriesMap(const Model& model, const std::vector<GiNaC::ex>& functions);
   std::optional<std::vector<Series>> run(const std::vector<Series>& point,
                                          const SeriesField& field) const;
+  std::optional<std::vector<Series>> run_numbers(const std::vector<Series>& point,
+                                                 const SeriesField& field) const;
   std::optional<Image> kahan_image(const std::vector<Series>& point,
                                    const SeriesField& field) const;
 

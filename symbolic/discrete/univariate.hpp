@@ -26,6 +26,7 @@ class Univariate {
     return *this;
   }
   nmod_poly_struct* raw() { return value_; }
+  const nmod_poly_struct* raw() const { return value_; }
   long degree() const { return nmod_poly_degree(value_); }
   bool is_zero() const { return nmod_poly_is_zero(value_); }
 

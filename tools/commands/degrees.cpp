@@ -96,8 +96,8 @@ std::string confinement_words(const discrete::Confinement& found) {
     case Kind::unclear:
       break;
   }
-  return "not clear: no points on them were found, the map is too large, or it is invertible "
-         "nowhere";
+  return "not clear: of one there are no points over the field, the map is too large, or it is "
+         "invertible nowhere";
 }
 
 /// Beside the growth of the degrees: maps that are confined and have entropy are known.

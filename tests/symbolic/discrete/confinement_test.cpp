@@ -109,5 +109,14 @@ TEST(Confinement, AHypersurfaceWithoutPointsIsNotCalledHarmless) {
   EXPECT_TRUE(met);
 }
 
+/// y^2 = 17 has no points over the field, where y^2 = 4 has, and the map does the same there.
+TEST(Confinement, ThatOfOneHypersurfaceSaysNothingOfAnother) {
+  EXPECT_EQ(confinement_of(plane("y", "-x + 1/y + y + y/(y^2-4)^2")).kind, Kind::not_confined);
+  EXPECT_EQ(confinement_of(plane("y", "-x + 1/y + y + y/(y^2-17)^2")).kind, Kind::unclear);
+  // With a parameter there are points for some of its values.
+  EXPECT_EQ(confinement_of(plane("y", "-x + 1/y + y + y/(y^2-a)^2")).kind, Kind::not_confined);
+  EXPECT_EQ(confinement_of(plane("-y + 2*a*x/(x^2 - b)", "x")).kind, Kind::confined);
+}
+
 }  // namespace
 }  // namespace casimir::test
