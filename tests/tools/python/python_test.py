@@ -173,6 +173,14 @@ class Maps(unittest.TestCase):
         np.testing.assert_array_equal(orbit.y, [[1, 5, 6, 6.25], [2, 1, 0.5, 0.25]])
         self.assertEqual(orbit.state, [6.25, 0.25])
 
+    def test_darboux_polynomials_of_a_map_say_what_they_depend_on(self):
+        plane = 'title = "m"\n[phase_space]\nvariables = ["x", "y"]\n[map]\n'
+        found = casimir.Map(plane + 'x = "2*x/(1-x^2)"\ny = "y/2"\n').darboux(2)
+        self.assertEqual(found.combinations, [("multiplier", "1/(x^2 + 1)")])
+        self.assertIn("one to one", found.combination_evidence[0])
+        self.assertEqual((found.complete, found.has_conjugates), (True, False))
+        self.assertTrue(casimir.Map(plane + 'x = "y"\ny = "3*x"\n').darboux(1).has_conjugates)
+
     def test_a_flow_is_discretised(self):
         kahan = casimir.load("euler").discretise()
         self.assertTrue(kahan.verify())

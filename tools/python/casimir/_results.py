@@ -397,9 +397,12 @@ class MapDarboux(Sequence[DarbouxPolynomial]):
 
     found: list[DarbouxPolynomial]
     combinations: list[tuple[str, str]]  #: "integral" or "multiplier", a density, with its text
+    combination_evidence: list[str]  #: what the proof of each says beside, and what it depends on
     factors: list[str]
-    complete: bool  #: proved: there are no others with such cofactors, beside products and sums
-    reason: str  #: where not
+    #: Proved: there are no others with rational coefficients and such cofactors, beside products and sums.
+    complete: bool
+    has_conjugates: bool  #: others were seen, with coefficients that are algebraic numbers
+    reason: str  #: where not complete
 
     def __getitem__(self, index):
         return self.found[index]

@@ -127,14 +127,18 @@ py::object darboux_of_map(const MapCase& self, int degree, double seconds, doubl
   };
   return exactly(interrupt, find, [](const discrete::MapDarboux& report) {
     py::list found, combinations;
+    Names evidence;
     for (const search::DarbouxPolynomial& own : report.found)
       found.append(py::dict("text"_a = own.text, "cofactor"_a = own.cofactor,
                             "relations"_a = own.relations, "degree"_a = own.degree,
                             "verdict"_a = to_string(own.verdict)));
-    for (const search::DarbouxCombination& own : report.combinations)
+    for (const search::DarbouxCombination& own : report.combinations) {
       combinations.append(py::make_tuple(search::to_string(own.kind), own.text));
+      evidence.push_back(own.evidence);
+    }
     return py::dict("found"_a = found, "combinations"_a = combinations,
-                    "factors"_a = report.factors, "complete"_a = report.complete,
+                    "combination_evidence"_a = evidence, "factors"_a = report.factors,
+                    "complete"_a = report.complete, "has_conjugates"_a = report.has_conjugates,
                     "reason"_a = report.reason);
   });
 }
