@@ -85,6 +85,18 @@ Proof undecided(const Claim& claim) {
   return proof;
 }
 
+/// Equations that are assumed keep witnesses out, and no proof uses them.
+std::string hint_at_equations(const Model& model) {
+  for (const Assumption& a : model.assumptions)
+    if (a.comparison == Comparison::equal)
+      return fmt::format(
+          "; the equation '{}' is assumed and not put into the claims: a definition in the place "
+          "of "
+          "a parameter does that",
+          a.text);
+  return {};
+}
+
 void decide(Prover& prover, const Claim& claim, Proof& proof) {
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -103,6 +115,7 @@ void decide(Prover& prover, const Claim& claim, Proof& proof) {
     proof.verdict = Verdict::undecided;
     proof.reason = prover.model().limits.out_of_memory();
   }
+  if (proof.verdict == Verdict::undecided) proof.reason += hint_at_equations(prover.model());
   proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -162,6 +162,23 @@ TEST(Prove, LevelThatIsNotInvariantIsSaidSo) {
   EXPECT_NE(proof.reason.find("the level is not invariant"), std::string::npos);
 }
 
+/// p is an integral where b = a, which no proof makes use of.
+TEST(Prove, AnEquationThatIsAssumedIsNamedWhereItMayDecide) {
+  const auto with = [](const std::string& assumed) {
+    const Model model = model_of(
+        "hamiltonian = \"p^2/2 + (a - b)*q^2/2\"\n[phase_space]\nvariables = [\"q\", \"p\"]\n"
+        "canonical = true\n[parameters]\na = {}\nb = { assume = \"" +
+        assumed + "\" }\n[integrals]\nP = \"p\"\n");
+    for (const Proof& proof : prove(model))
+      if (proof.name == "P" && proof.kind == ClaimKind::integral) return proof;
+    return Proof{};
+  };
+  const Proof equal = with("b = a");
+  EXPECT_EQ(equal.verdict, Verdict::undecided);
+  EXPECT_NE(equal.reason.find("'b = a' is assumed"), std::string::npos) << equal.reason;
+  EXPECT_EQ(with("b > a").verdict, Verdict::refuted);
+}
+
 TEST(Prove, WitnessLiesInsideEveryAssumption) {
   const Model model = model_of(
       "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = "

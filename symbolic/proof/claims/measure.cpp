@@ -61,38 +61,53 @@ bool has_imaginary_number(const GiNaC::ex& e) {
 /// The signs of a density at the points that are looked at.
 struct Signs {
   bool positive = false, negative = false;
+  bool both = false;  ///< at different states, and the same values of the parameters
 
-  bool both() const { return positive && negative; }
   void add(std::optional<int> sign) {
     positive = positive || sign == 1;
     negative = negative || sign == -1;
   }
 };
 
-/// At points of the space, near to 0 and far from it too. The far ones are drawn by themselves, so
-/// that the points of other claims stay what they are.
-Signs signs_in_space(Prover& prover, const GiNaC::ex& density) {
-  // An arbitrary function has either sign, and no value at a point.
-  if (highest_derivative(density)) return {true, true};
-  std::vector<GiNaC::ex> domain = prover.domain();
-  std::erase_if(domain, [](const GiNaC::ex& e) { return highest_derivative(e).has_value(); });
-  constexpr int kPoints = 6, kWidePoints = 40;
+/// Whether it has both signs at the parameters of a point: at states near to 0 and far from it.
+bool has_both_signs_beside(RealPoints& points, const std::vector<GiNaC::ex>& domain,
+                           const GiNaC::ex& density, RealPoint base, std::size_t variables) {
+  constexpr int kPoints = 40;
   Signs signs;
-  RealPoints& points = prover.real_points();
-  for (int i = 0; i < kPoints && !signs.both(); ++i) {
-    auto point = points.random(domain);
-    if (!point) break;
-    signs.add(point->evaluator().sign(density));
-  }
-  RealPoints own = points;
-  for (int i = 0; i < kWidePoints && !signs.both(); ++i) {
+  signs.add(base.evaluator().sign(density));
+  for (int i = 0; i < kPoints && !(signs.positive && signs.negative); ++i) {
     try {
-      RealPoint point = own.at(own.draw_wide());
-      if (own.admits(point, domain)) signs.add(point.evaluator().sign(density));
+      std::vector<GiNaC::ex> coordinates = i % 2 == 0 ? points.draw_wide() : points.draw();
+      std::copy(base.coordinates().begin() + static_cast<long>(variables), base.coordinates().end(),
+                coordinates.begin() + static_cast<long>(variables));
+      RealPoint point = points.at(std::move(coordinates));
+      if (points.admits(point, domain)) signs.add(point.evaluator().sign(density));
     } catch (const NotCertified&) {
       continue;
     }
   }
+  return signs.positive && signs.negative;
+}
+
+Signs signs_in_space(Prover& prover, const GiNaC::ex& density) {
+  // An arbitrary function has either sign, and no value at a point.
+  if (highest_derivative(density)) return {true, true, true};
+  std::vector<GiNaC::ex> domain = prover.domain();
+  std::erase_if(domain, [](const GiNaC::ex& e) { return highest_derivative(e).has_value(); });
+  constexpr int kPoints = 6;
+  Signs signs;
+  std::vector<RealPoint> seen;
+  for (int i = 0; i < kPoints && !(signs.positive && signs.negative); ++i) {
+    auto point = prover.real_points().random(domain);
+    if (!point) break;
+    signs.add(point->evaluator().sign(density));
+    seen.push_back(std::move(*point));
+  }
+  // Drawn by themselves, so that the points of other claims stay what they are.
+  RealPoints own = prover.real_points();
+  constexpr std::size_t kMostBases = 3;
+  for (std::size_t i = 0; i < std::min(seen.size(), kMostBases) && !signs.both; ++i)
+    signs.both = has_both_signs_beside(own, domain, density, seen[i], prover.dimension());
   return signs;
 }
 
@@ -126,7 +141,7 @@ std::string doubt_about(Prover& prover, const GiNaC::ex& density, Signs* signs,
 /// Whether it has both signs where the case says something. An arbitrary function that is nowhere
 /// zero, as 1 + U^2, is not told to.
 std::string note_of(Prover& prover, const GiNaC::ex& density, const Signs& signs) {
-  if (!signs.both() || (highest_derivative(density) && is_nowhere_zero(prover, density))) return {};
+  if (!signs.both || (highest_derivative(density) && is_nowhere_zero(prover, density))) return {};
   const bool on_constraints = !prover.model().constraints.empty() && !highest_derivative(density);
   if (on_constraints && !(prover.is_positive_somewhere_on_constraints(density) &&
                           prover.is_positive_somewhere_on_constraints(-density)))

@@ -425,6 +425,10 @@ TEST(ProveMap, TheSignsOfADensityAreThoseOnThePhaseSpace) {
   for (const char* density : {"100-x^2-y^2", "1/(16-(x^2+y^2)/25)", "x^2+y^2-1/1000"})
     EXPECT_TRUE(has_both_signs(turn, density)) << density;
   EXPECT_FALSE(has_both_signs(turn, "x^2+y^2"));
+  // That of a parameter is the same at all points.
+  const std::string with_parameter = turn + "[parameters]\na = {}\n";
+  EXPECT_FALSE(has_both_signs(with_parameter, "a*(1 + x^2 + y^2)"));
+  EXPECT_TRUE(has_both_signs(with_parameter, "a*(x^2 + y^2 - 1)"));
   const std::string steps = kPhaseSpaceOfPlane +
                             "[[map_step]]\nexpressions = { x = \"x + 1\" }\n"
                             "[[map_step]]\nexpressions = { x = \"x - 3\" }\n";
