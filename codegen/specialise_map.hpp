@@ -10,6 +10,11 @@
 
 namespace casimir {
 
+/// The step of a map, in which every sign(a) becomes a/|a|, without a value at a = 0. A motion
+/// passes such a place between its steps, and has one side or the other; an orbit of a map may
+/// stand on it.
+Program without_signs_of_zero(const Program& step);
+
 /// The step of a map in the place of a right-hand side, and what goes with it: invariants, the
 /// derivative of the step as `jacobian`, its action on a deviation as `variational`.
 /// \param inverse  the state before, a function for each variable

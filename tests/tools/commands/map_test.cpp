@@ -249,6 +249,26 @@ TEST(MapCommands, ConserveWatchesWhatTheMapKeeps) {
   EXPECT_EQ(run({"conserve", "lyness", "--plot", "x.svg"}).status, 2);
 }
 
+/// The sign of 0 has no value, and an orbit may stand there: from y = 2 it comes to 0 in two steps.
+TEST(MapCommands, OrbitsEndWhereTheSignOfZeroIsTaken) {
+  const auto orbit = [](const char* y) {
+    return run(
+        {"integrate", "-", "--json"},
+        std::string("[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x + "
+                    "sign(y)\"\ny = \"y - 1\"\n[[scene]]\nname = \"default\"\ninitial = { x = "
+                    "\"1\", y = \"") +
+            y + "\" }\nduration = \"5\"\n");
+  };
+  const Outcome passes = orbit("5/2");
+  EXPECT_EQ(passes.status, 0) << passes.err;
+  EXPECT_EQ(passes.json().at("state").at("x"), "2");
+  for (const char* stands : {"0", "2"}) {
+    const Outcome ended = orbit(stands);
+    EXPECT_EQ(ended.status, 5) << stands;
+    EXPECT_TRUE(has(ended.err, "not finite")) << ended.err;
+  }
+}
+
 TEST(MapCommands, SectionFollowsOrbits) {
   const Folder folder;
   const Outcome outcome = run_in(folder, {"section", "mcmillan", "--orbits", "6", "--points", "300",

@@ -10,6 +10,7 @@
 
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
+#include "codegen/specialise_map.hpp"
 #include "runtime/evaluate.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
@@ -196,6 +197,7 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
   const PreparedScene run = prepare(model, scene);
   Specialisation s = run.specialisation;
   s.has_jacobian = false;
+  s.rhs = without_signs_of_zero(s.rhs);
   Iterated result;
   result.names = s.states;
   for (const std::string& name : s.invariant_names) result.invariants.push_back({name});
