@@ -136,6 +136,15 @@ DarbouxCombination Combiner::described(const System& system, const Polynomial& f
   return result;
 }
 
+/// Whether a function of the parameters is zero at special values of them only: a polynomial is,
+/// and one with roots or the like may be a divisor of zero.
+bool may_be_divided_by(const System& system, const Polynomial& scale) {
+  const FunctionRing& ring = system.functions();
+  for (std::size_t i = ring.symbols().size(); i < ring.end_of_generators(); ++i)
+    if (scale.uses(i)) return ring.is_nowhere_zero(ring.numerator(scale));
+  return true;
+}
+
 /// Whether it is proved that there are no others.
 bool Combiner::search(Kind kind) {
   const Model model = extended(kind);
@@ -153,7 +162,11 @@ bool Combiner::search(Kind kind) {
     if (!logarithmic) continue;  // a polynomial integral
     if (kind != Kind::integral && !uses(model.variables.size() - 1)) continue;
     result_.push_back(described(system, g.function, kind));
-    result_.back().verdict = verdict;
+    // a + |a| is zero for all a < 0: what is divided by it is no density there.
+    const bool divided =
+        kind != Kind::multiplier ||
+        may_be_divided_by(system, g.function.derivative(model.variables.size() - 1));
+    result_.back().verdict = divided ? verdict : Verdict::undecided;
   }
   return solution.complete;
 }
