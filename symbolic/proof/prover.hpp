@@ -255,6 +255,10 @@ class Prover {
   /// `divisor` as a summand.
   std::string cofactor_text(const Polynomial& of_numerator, const Polynomial& divisor,
                             const Level& level, std::size_t i);
+  /// A quotient in lowest terms, whose value at a witness is that of the residual; on a level what
+  /// is left of its numerator there.
+  std::string residual_text(const Residual& residual, const Polynomial& rest,
+                            const Level& level) const;
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   void decide_on(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
   void decide_with_branches(Proof& proof, const std::vector<Residual>& residuals, const Level& own);

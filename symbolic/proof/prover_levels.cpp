@@ -13,7 +13,6 @@ namespace {
 
 using GiNaC::ex;
 
-constexpr std::size_t kMaxResidualText = 2000;
 constexpr GroebnerLimits kSmallBasis{200, 60, 2000};
 
 }  // namespace
@@ -37,12 +36,6 @@ const std::vector<Polynomial>& Prover::square_relations() {
       square_relations_.second.push_back(relation);
   }
   return square_relations_.second;
-}
-
-std::string shortened(std::string text, std::size_t terms) {
-  if (text.size() <= kMaxResidualText) return text;
-  const std::size_t cut = text.rfind(' ', kMaxResidualText);
-  return text.substr(0, cut) + fmt::format(" ... ({} terms)", terms);
 }
 
 /// Simpler functions with the common real zeros of one, which may be what the level of a square or
@@ -412,7 +405,7 @@ void Prover::decide_on(Proof& proof, const std::vector<Residual>& residuals, con
     if (searches++ < most_searches || level.empty()) found = witness(rest, residual, level);
     if (!first && !found) continue;
     proof.verdict = found ? Verdict::refuted : Verdict::undecided;
-    proof.residual = shortened(ring_.text(rest), rest.terms());
+    proof.residual = residual_text(residual, rest, level);
     proof.reason = found ? fmt::format("{} is not zero", residual.label)
                    : !singular.empty()
                        ? singular

@@ -7,6 +7,7 @@
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/short_text.hpp"
+#include "symbolic/model/bare_motion.hpp"
 #include "symbolic/search/conditions/special_values.hpp"
 #include "symbolic/search/darboux_equations.hpp"
 #include "symbolic/search/darboux_integrals.hpp"
@@ -29,6 +30,7 @@ class DarbouxSearch {
     report_.reason = reason;
   }
   bool set_cofactor(DarbouxPolynomial& result, const Polynomial& function);
+  Verdict prove_rate(const DarbouxPolynomial& polynomial) const;
   bool hides_integral(const Polynomial& relation, std::size_t root,
                       const Polynomial& product) const;
   bool follows_from_others(const Branch& branch, const Polynomial& function) const;
@@ -62,6 +64,18 @@ bool DarbouxSearch::set_cofactor(DarbouxPolynomial& result, const Polynomial& fu
       bottom.is_constant() ? text(top) : quotient_text(text(top), top.terms() > 1, text(bottom));
   result.cofactor_value = system_.expression(top) / system_.expression(bottom);
   return true;
+}
+
+/// dF/dt = K F as an identity: F w is an integral of the equations with dw/dt = -K w beside them.
+/// That F = 0 is an invariant level is less, and empty where F has no real zeros.
+Verdict DarbouxSearch::prove_rate(const DarbouxPolynomial& polynomial) const {
+  Model extended = bare_motion(model_);
+  const GiNaC::symbol factor("<w>");
+  extended.variables.push_back(factor);
+  extended.field.push_back(-polynomial.cofactor_value * factor);
+  return prove_claim(extended, ClaimKind::integral,
+                     {polynomial.text, polynomial.value * factor, {}})
+      .verdict;
 }
 
 /// Whether a product of conjugates has an integral for a factor, where one of them may be real.
@@ -149,8 +163,7 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
     leave_open(fmt::format("'{}' was found and its cofactor was not", result.text));
     return;
   }
-  result.verdict =
-      prove_claim(model_, ClaimKind::invariant_relation, {result.text, result.value, {}}).verdict;
+  result.verdict = prove_rate(result);
   report_.found.push_back(std::move(result));
   found_.emplace_back(*primitive, quotient);
 }

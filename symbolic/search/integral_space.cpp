@@ -65,6 +65,7 @@ class Run {
   std::vector<Residue> column_values(std::size_t column) const;
   std::vector<Residue> values_of(const Polynomial& f) const;
   std::vector<Vector> null_vectors();
+  void add_product(const std::vector<int>& exponents);
   void add_products(std::size_t old);
   std::optional<Polynomial> realise(const Vector& vector);
   std::vector<std::vector<Residue>> trivial_vectors(int degree);
@@ -265,20 +266,27 @@ std::vector<Run::Vector> Run::null_vectors() {
   return result;
 }
 
+/// Puts a product of the generators into the span.
+void Run::add_product(const std::vector<int>& exponents) {
+  std::vector<Residue> values(points_.size(), 1);
+  for (std::size_t g = 0; g < exponents.size(); ++g) {
+    for (int k = 0; k < exponents[g]; ++k)
+      for (std::size_t p = 0; p < values.size(); ++p)
+        values[p] = modulus_.multiply(values[p], generator_values_[g][p]);
+  }
+  span_.insert(std::move(values));
+}
+
 /// Puts the products into the span that use any generator from the place `old` on.
 void Run::add_products(std::size_t old) {
   while (generator_values_.size() < generators_.size())
     generator_values_.push_back(values_of(generators_[generator_values_.size()].function));
   for (const std::vector<int>& exponents :
-       known_products(generators_, problem_, problem_.degree, old)) {
-    std::vector<Residue> values(points_.size(), 1);
-    for (std::size_t g = 0; g < exponents.size(); ++g) {
-      for (int k = 0; k < exponents[g]; ++k)
-        for (std::size_t p = 0; p < values.size(); ++p)
-          values[p] = modulus_.multiply(values[p], generator_values_[g][p]);
-    }
-    span_.insert(std::move(values));
-  }
+       known_products(generators_, problem_, problem_.degree, old))
+    add_product(exponents);
+  if (!by_values_ || span_.dimension() == nullity_) return;
+  for (const std::vector<int>& exponents : lowered_products(system_, generators_, problem_, old))
+    add_product(exponents);
 }
 
 /// Coefficients, modulo the prime, of products of generators up to a degree.

@@ -79,6 +79,12 @@ Solution solve(const System& system, const Problem& problem, const Watch& watch)
 std::vector<std::vector<int>> known_products(const std::vector<Generator>& generators,
                                              const Problem& problem, int degree, std::size_t old);
 
+/// More of them: those of a higher degree that the relations between the functions bring back
+/// within the problem, as sqrt(x)^2 = x does. A moderate number of products is tried.
+std::vector<std::vector<int>> lowered_products(const System& system,
+                                               const std::vector<Generator>& generators,
+                                               const Problem& problem, std::size_t old);
+
 /// The weighted degree of a polynomial in the variables at `places`.
 int weighted_degree(const Polynomial& p, const std::vector<std::size_t>& places,
                     const std::vector<int>& weights);

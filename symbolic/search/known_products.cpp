@@ -27,6 +27,17 @@ void remove_beyond(std::vector<std::vector<int>>& products,
   }
 }
 
+/// Whether a function is among those that are searched.
+bool is_within(const System& system, const Problem& problem, const Polynomial& p) {
+  if (!system.in_atoms(p)) return false;
+  for (const std::size_t place : problem.fields.places)
+    if (system.is_silent()[place] && p.uses(place)) return false;
+  if (weighted_degree(p, problem.fields.places, problem.weights) > problem.degree) return false;
+  return std::ranges::all_of(problem.limits, [&](const DegreeLimit& limit) {
+    return limit.of(p, problem.fields.places) <= limit.degree;
+  });
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> known_products(const std::vector<Generator>& generators,
@@ -64,6 +75,29 @@ std::vector<std::vector<int>> known_products(const std::vector<Generator>& gener
                                       exponents.end(), [](int e) { return e != 0; });
       if (is_new) result.push_back(std::move(exponents));
     }
+  }
+  return result;
+}
+
+std::vector<std::vector<int>> lowered_products(const System& system,
+                                               const std::vector<Generator>& generators,
+                                               const Problem& problem, std::size_t old) {
+  constexpr std::size_t kMostProducts = 300, kMostTerms = 1000;
+  if (system.relations().empty()) return {};
+  Problem wider = problem;
+  wider.limits.clear();
+  std::vector<std::vector<int>> result;
+  std::size_t tried = 0;
+  for (const std::vector<int>& exponents :
+       known_products(generators, wider, 2 * problem.degree, old)) {
+    if (tried++ == kMostProducts) break;
+    Polynomial product = system.ring().constant(1);
+    for (std::size_t g = 0; g < exponents.size() && product.terms() <= kMostTerms; ++g) {
+      for (int k = 0; k < exponents[g] && product.terms() <= kMostTerms; ++k)
+        product = system.functions().reduced(product * generators[g].function);
+    }
+    if (product.terms() <= kMostTerms && is_within(system, problem, product))
+      result.push_back(exponents);
   }
   return result;
 }

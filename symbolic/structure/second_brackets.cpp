@@ -57,13 +57,12 @@ bool PencilSearch::take_first() {
     }
     upper = own.found.front().upper;
   }
-  if (!search_.space().add_tensor(upper)) {
+  std::optional<Bivector> first = search_.space().polynomials(upper);
+  if (!first || !search_.space().add_tensor(upper)) {
     report_.reason = "the bracket is not one of polynomials that the motion keeps";
     return false;
   }
-  search::System& system = search_.space().system();
-  for (const GiNaC::ex& component : upper)
-    first_.push_back(system.functions().reduced(system.prover().convert(component)));
+  first_ = std::move(*first);
   report_.first = search_.described(first_, search_.hamiltonian_of(first_));
   if (report_.first->jacobi != Verdict::proved) {
     report_.reason = "the bracket does not obey the Jacobi identity";

@@ -28,9 +28,32 @@ Problem TensorSpace::problem(int degree) const {
   return result;
 }
 
+/// A known function need not be made of what the equations of motion need, as the bracket of
+/// {x, y} = 1/y is not: nothing new is converted in the ring of the system, whose variables have
+/// been counted. Common factors cancel in a ring of its own. Where the denominator that is left is
+/// an integral, the numerator is as invariant, and else it is not.
+std::optional<TensorSpace::Numerator> TensorSpace::numerator_of(const GiNaC::ex& function) {
+  Prover own(lift_.model(), {function});
+  const FunctionRing& ring = own.ring();
+  const auto [top, bottom] = ring.lowest_terms(own.convert(function));
+  const FunctionRing& common = system_.functions();
+  for (std::size_t g = ring.symbols().size(); g < ring.end_of_generators(); ++g) {
+    if (!top.uses(g)) continue;
+    const GiNaC::ex value = ring.variable_value(g);
+    bool known = false;
+    for (std::size_t k = common.symbols().size(); !known && k < common.end_of_generators(); ++k)
+      known = common.variable_value(k).is_equal(value);
+    if (!known) return std::nullopt;
+  }
+  Polynomial p = common.reduced(system_.prover().convert(ring.expression(top)));
+  if (!system_.in_atoms(p)) return std::nullopt;
+  return Numerator{std::move(p), ring.depends_on_first(bottom, lift_.model().variables.size())};
+}
+
 bool TensorSpace::add(const GiNaC::ex& function) {
-  const Polynomial p = system_.functions().reduced(system_.prover().convert(function));
-  if (!system_.in_atoms(p)) return false;
+  const std::optional<Numerator> numerator = numerator_of(function);
+  if (!numerator) return false;
+  const Polynomial& p = numerator->function;
   const std::vector<int> weights(system_.atoms().size(), 1);
   const int degree = search::weighted_degree(p, system_.atoms(), weights);
   // A bracket without the Jacobi identity is kept by no Hamiltonian flow.
@@ -43,6 +66,13 @@ bool TensorSpace::add_integral(const GiNaC::ex& integral) { return add(integral)
 
 bool TensorSpace::add_tensor(const std::vector<GiNaC::ex>& components) {
   return add(lift_.function(components));
+}
+
+std::optional<std::vector<Polynomial>> TensorSpace::polynomials(
+    const std::vector<GiNaC::ex>& tensor) {
+  const std::optional<Numerator> numerator = numerator_of(lift_.function(tensor));
+  if (!numerator || numerator->is_divided) return std::nullopt;
+  return components(numerator->function);
 }
 
 void TensorSpace::search_up_to(int degree, const Watch& watch) {

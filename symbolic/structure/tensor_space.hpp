@@ -22,11 +22,11 @@ class TensorSpace {
   search::System& system() { return system_; }
   const search::System& system() const { return system_; }
 
-  /// Takes an integral as known; false where it is constant, no polynomial in the atoms or, in
-  /// spite of what was thought, not proved to be one.
+  /// Takes an integral, or its numerator in lowest terms, as known; false where that is constant,
+  /// no polynomial in the atoms or not proved to be an integral.
   bool add_integral(const GiNaC::ex& integral);
-  /// Takes an invariant tensor as known; false where it is zero, no polynomial in the atoms or not
-  /// proved to be invariant.
+  /// Takes an invariant tensor, or its numerator, as known; false where that is zero, no polynomial
+  /// in the atoms or not proved to be invariant: where the denominator is an integral, it is.
   bool add_tensor(const std::vector<GiNaC::ex>& components);
 
   /// Finds what the known ones do not generate, degree by degree. What is found at one degree is
@@ -48,6 +48,9 @@ class TensorSpace {
   /// Linearly independent tensors that span all that was known or found up to this degree.
   std::vector<Polynomial> basis(int degree);
 
+  /// The components of a tensor times a function of the parameters, as polynomials in the atoms;
+  /// empty where they are none.
+  std::optional<std::vector<Polynomial>> polynomials(const std::vector<GiNaC::ex>& tensor);
   /// The components of a tensor, in the order of the lift's indices.
   std::vector<Polynomial> components(const Polynomial& tensor) const;
   std::vector<GiNaC::ex> expressions(const Polynomial& tensor) const;
@@ -55,6 +58,13 @@ class TensorSpace {
 
  private:
   bool add(const GiNaC::ex& function);
+  /// The numerator of a function in lowest terms.
+  struct Numerator {
+    Polynomial function;
+    bool is_divided;  ///< the denominator depends on the coordinates
+  };
+  /// Empty where it is no polynomial in the atoms.
+  std::optional<Numerator> numerator_of(const GiNaC::ex& function);
   search::Problem problem(int degree) const;
 
   Lift lift_;

@@ -179,6 +179,13 @@ ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Conditio
   return Confirmed::found;
 }
 
+/// Linear in a parameter that none of its functions depends on, as a - |a| does on a.
+bool is_linear_in(const FunctionRing& ring, const Polynomial& factor, std::size_t place) {
+  if (factor.degree(place) != 1) return false;
+  return std::ranges::none_of(factor.coefficients(place),
+                              [&](const Polynomial& c) { return ring.depends_on(c, place); });
+}
+
 void ConditionFinder::add_factor(const Polynomial& factor, const std::vector<std::size_t>& free) {
   if (std::any_of(surfaces_.begin(), surfaces_.end(),
                   [&](const Polynomial& known) { return known == factor; }))
@@ -195,12 +202,13 @@ void ConditionFinder::add_factor(const Polynomial& factor, const std::vector<std
     only = i;
   }
   for (const std::size_t place : free) {
-    if (factor.degree(place) != 1) continue;
+    if (!is_linear_in(finder_.system().functions(), factor, place)) continue;
     if (!main || factor.coefficients(place)[1].is_constant()) main = place;
   }
   if (!main) {
     if (used == 1 && real_roots(factor, *only) == 0) return;
-    if (used == 1 && factor.degree(*only) == 2) return add_roots(factor, *only);
+    if (used == 1 && factor.degree(*only) == 2 && std::ranges::find(free, *only) != free.end())
+      return add_roots(factor, *only);
     leave_open(fmt::format("'{} = 0' has no rational solution to confirm", condition.relation));
     report_.conditions.push_back(condition);
     return;
@@ -214,23 +222,18 @@ void ConditionFinder::add_factor(const Polynomial& factor, const std::vector<std
   confirm(place, condition);
 }
 
-/// Both roots of a factor of degree two.
+/// Both roots of a factor of degree two in one parameter, with numbers for coefficients.
 void ConditionFinder::add_roots(const Polynomial& factor, std::size_t place) {
-  const std::vector<Polynomial> c = factor.coefficients(place);
-  const Polynomial discriminant = c[1] * c[1] - (c[0] * c[2]).scaled(4);
   const FunctionRing& ring = finder_.system().functions();
-  const std::string bottom = text(c[2].scaled(2));
+  const std::vector<Polynomial> c = factor.coefficients(place);
+  const ex a = ring.expression(c[2]), b = ring.expression(c[1]),
+           discriminant = b * b - 4 * a * ring.expression(c[0]);
   for (const int sign : {1, -1}) {
-    const ex root = GiNaC::sqrt(ring.expression(discriminant)) * sign;
-    const ex value = (root - ring.expression(c[1])) / ring.expression(c[2].scaled(2));
+    const ex value = ((GiNaC::sqrt(discriminant) * sign - b) / (2 * a)).expand();
     Condition condition;
     condition.relation = text(factor);
-    const std::string size = fmt::format("sqrt({})", text(discriminant));
-    const std::string top =
-        c[1].is_zero() ? (sign > 0 ? size : "-" + size)
-                       : fmt::format("({} {} {})", text(-c[1]), sign > 0 ? "+" : "-", size);
     const Place own{{{parameter(place), value}},
-                    {{parameter(place).get_name(), top + "/" + bottom}}};
+                    {{parameter(place).get_name(), finder_.system().text_of(value)}}};
     if (confirm(own, condition) == Confirmed::open && sign > 0)
       report_.conditions.push_back(condition);
   }
@@ -244,10 +247,11 @@ bool ConditionFinder::on_a_found_surface(const GiNaC::exmap& point) const {
 }
 
 /// A parameter that is a polynomial in the others where the condition vanishes, and its value.
-std::optional<std::pair<std::size_t, Polynomial>> solved_for(const Polynomial& condition,
+std::optional<std::pair<std::size_t, Polynomial>> solved_for(const FunctionRing& ring,
+                                                             const Polynomial& condition,
                                                              const std::vector<std::size_t>& free) {
   for (const std::size_t place : free) {
-    if (condition.degree(place) != 1) continue;
+    if (!is_linear_in(ring, condition, place)) continue;
     const std::vector<Polynomial> parts = condition.coefficients(place);
     if (parts[1].is_constant())
       return std::pair{place, parts[0].scaled(-1 / parts[1].term_list()[0].first)};
@@ -280,7 +284,7 @@ bool ConditionFinder::look_inside(ParametricBlock block, const RankConditions& o
                                   const Polynomial& surface, const std::vector<std::size_t>& free) {
   // Below rank one there is nothing more to lose.
   if (own.rank <= 1 || used_by(block, free) <= 1 || has_no_real_zero(surface)) return true;
-  const auto value = solved_for(surface, free);
+  const auto value = solved_for(finder_.system().functions(), surface, free);
   if (!value) return false;
   block.put(value->first, value->second);
   std::vector<std::size_t> rest = free;
@@ -296,9 +300,9 @@ bool ConditionFinder::look_inside(ParametricBlock block, const RankConditions& o
 bool ConditionFinder::add_inside(const SpecialSet& surface, const Polynomial& factor,
                                  const std::vector<std::size_t>& rest) {
   if (has_no_real_zero(factor)) return true;
-  const auto value = solved_for(factor, rest);
-  if (!value) return false;
   const FunctionRing& ring = finder_.system().functions();
+  const auto value = solved_for(ring, factor, rest);
+  if (!value) return false;
   SpecialSet set = surface;
   for (auto& [known, old] : set.values)
     old = substituted(old, value->first, value->second, old.ring().constant(1));

@@ -352,6 +352,16 @@ TEST(LaxOnALevel, HoldsWhereTheLevelIsInvariant) {
   EXPECT_EQ(proof_of(model_of(lax_on("0", "on = [\"z - 1\"]\n")), "lax").verdict, Verdict::refuted);
 }
 
+/// Its value at the witness is the one that stands there: denominators are not left out.
+TEST(Residual, OfAQuotientIsAQuotient) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\ndomain = [\"x != 0\"]\n[equations]\nx = "
+      "\"y\"\ny = \"-x\"\n[integrals]\nF = \"y/x\"\n");
+  const Proof proof = proof_of(model, "integral");
+  ASSERT_EQ(proof.verdict, Verdict::refuted);
+  EXPECT_EQ(proof.residual, "(-x^2 - y^2)/(x^2)");
+}
+
 }  // namespace
 }  // namespace casimir::test
 

@@ -92,6 +92,28 @@ TEST(DarbouxIntegrals, OfEquationsWithDenominatorsAreOfTheEquationsAsTheyAre) {
   for (const search::DarbouxPolynomial& own : line.found) EXPECT_EQ(own.cofactor, "1/(x)");
 }
 
+/// dF/dt = K F is an identity, also of F = x^2 + 1, which is zero at no real point.
+TEST(DarbouxIntegrals, OfFactorsWithoutRealZeros) {
+  const DarbouxReport report =
+      of_equations(R"(["x", "y"])", "x = \"-(x^2 + 1)\"\ny = \"-2*x*y\"\n", 2);
+  ASSERT_EQ(report.found.size(), 2U);
+  for (const search::DarbouxPolynomial& own : report.found)
+    EXPECT_EQ(own.verdict, Verdict::proved) << own.text;
+  EXPECT_EQ(texts(report, Kind::integral), Texts{"y/(x^2 + 1)"});
+}
+
+/// (a + |a|) log(density) has no rate, and for a < 0 that says nothing: the density 1 is none.
+TEST(DarbouxIntegrals, NothingIsDividedByADivisorOfZero) {
+  for (const std::string size : {"abs(a)", "sqrt(a^2)", "sign(a)*a"}) {
+    const DarbouxReport report = of_equations(
+        R"(["x", "y"])", fmt::format("x = \"-{}*x\"\ny = \"a*y\"\n", size), 1, "a = {}\n");
+    for (const DarbouxCombination& own : report.combinations) {
+      const bool is_one = own.kind == Kind::multiplier && own.text == "1";
+      EXPECT_FALSE(is_one && own.verdict == Verdict::proved) << size;
+    }
+  }
+}
+
 /// A constant cofactor alone is no integral; the time is needed.
 TEST(DarbouxIntegrals, OfLorenzWithATwiceSNeedTheTime) {
   const DarbouxReport report = of_equations(

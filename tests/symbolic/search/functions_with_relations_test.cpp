@@ -52,6 +52,16 @@ TEST(FunctionsWithRelations, CalogerosAndMosersIntegralsAreAllThatThereAre) {
   EXPECT_EQ(degrees_of(four), (std::vector<int>{1, 3, 3}));
 }
 
+/// (sqrt(x) - sqrt(y))^3 has the degree 2: it is made of what was found.
+TEST(FunctionsWithRelations, PowersThatAreOfALowDegreeAreNotFoundAgain) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\ndomain = [\"x > 0\", \"y > "
+      "0\"]\n[equations]\nx = \"sqrt(x)\"\ny = \"sqrt(y)\"\n");
+  const auto report = search::find_integrals(model, up_to(3));
+  EXPECT_TRUE(report.complete) << report.reason;
+  EXPECT_EQ(degrees_of(report), std::vector<int>{1});
+}
+
 /// The ring makes sqrt(x^2 - 1) of sqrt(x + 1) and sqrt(x - 1), cos(x) of cos(x/2): what the
 /// equations have stays in the ansatz.
 TEST(FunctionsWithRelations, MoreFunctionsTakeNoneAway) {

@@ -152,7 +152,7 @@ TEST(Proved, AFactorWithoutRealRootsIsNoValueAndAnIrrationalRootIsConfirmedOrLef
       "y = \"(n^2 - 2)*(y^2 + x)\"\n",
       2, {"n"});
   EXPECT_TRUE(real.complete) << real.reason;
-  EXPECT_EQ(places_of(real), (std::set<std::string>{"n = sqrt(8)/2", "n = -sqrt(8)/2"}));
+  EXPECT_EQ(places_of(real), (std::set<std::string>{"n = sqrt(2)", "n = -sqrt(2)"}));
   const auto cubic = conditions(
       "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nn = {}\n[equations]\nx = \"1\"\n"
       "y = \"(n^3 - 2)*(y^2 + x)\"\n",
@@ -229,7 +229,7 @@ TEST(Proved, NorAreIrrationalOnesAgainstThem) {
       "[equations]\nx = \"1\"\ny = \"(n^2 - 2)*(y^2 + x)\"\n",
       2, {"n"});
   EXPECT_TRUE(report.complete) << report.reason;
-  EXPECT_EQ(places_of(report), (std::set<std::string>{"n = -sqrt(8)/2"}));
+  EXPECT_EQ(places_of(report), (std::set<std::string>{"n = -sqrt(2)"}));
 }
 
 TEST(Proved, WhatIsThereForAllValuesIsNotAdditionalAtOne) {

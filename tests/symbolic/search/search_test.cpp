@@ -346,6 +346,32 @@ TEST(Conditions, AnUnknownParameterIsNamed) {
   EXPECT_THROW(search::find_conditions(model, up_to(2), {text("a3"), text("a3")}), CaseError);
 }
 
+/// a - |a| is linear in a and is no equation for it: its solutions are all a >= 0.
+TEST(Search, OfConditionsThatAnAbsoluteValueHidesNoValueIsMade) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"abs(a)*x\"\ny = "
+      "\"-a*y\"\n[parameters]\na = {}\n");
+  const auto report = search::find_conditions(model, up_to(2), {text("a")});
+  EXPECT_FALSE(report.complete);
+  EXPECT_EQ(report.reason.find("another case"), std::string::npos) << report.reason;
+  const auto left = std::ranges::find_if(
+      report.conditions, [](const auto& own) { return own.verdict == Verdict::undecided; });
+  ASSERT_NE(left, report.conditions.end());
+  EXPECT_EQ(left->relation, "a - sqrt(a^2)");
+  EXPECT_TRUE(left->values.empty());
+}
+
+TEST(Search, RootsOfConditionsAreInLowestTerms) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"(a^2 - 3)*y^2\"\ny = \"x "
+      "+ (2*a^2 - 2*a - 1)*y\"\n[parameters]\na = {}\n");
+  const auto report = search::find_conditions(model, up_to(2), {text("a")});
+  EXPECT_TRUE(report.complete) << report.reason;
+  ASSERT_EQ(report.conditions.size(), 2U);
+  EXPECT_EQ(report.conditions[0].parameters[0].second, "sqrt(3)");
+  EXPECT_EQ(report.conditions[1].parameters[0].second, "-sqrt(3)");
+}
+
 TEST(Darboux, FindsHessAndNothingElse) {
   const auto report = search::find_darboux(
       model_of(euler_poisson("(a1*(M1^2 + M2^2) + a3*M3^2 + 2*b*M1*M3)/2 + r*g3",

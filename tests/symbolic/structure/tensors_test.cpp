@@ -111,6 +111,51 @@ TEST(Tensors, MayUseTheDenominatorsOfTheEquations) {
   for (const structure::Tensor& tensor : report.found) EXPECT_EQ(tensor.verdict, Verdict::proved);
 }
 
+std::size_t found_beside_the_known(const std::string& text, TensorType type, int degree) {
+  const TensorReport report = structure::find_tensors(model_of(text), type, degree);
+  EXPECT_TRUE(report.complete) << report.reason;
+  for (const structure::Tensor& tensor : report.found)
+    EXPECT_EQ(tensor.verdict, Verdict::proved) << text;
+  return report.found.size();
+}
+
+/// The field of an integral by Dirac's bracket is divided by what it has for a factor: the rotation
+/// about the vertical is no new symmetry, and q d/dp alone is one.
+TEST(Tensors, OfADiracBracketAreKnownInLowestTerms) {
+  EXPECT_EQ(found_beside_the_known(R"toml(hamiltonian = "(p1^2 + p2^2 + p3^2)/2 + q3"
+[phase_space]
+variables = ["q1", "q2", "q3", "p1", "p2", "p3"]
+canonical = true
+constraints = ["q1^2 + q2^2 + q3^2 - 1", "q1*p1 + q2*p2 + q3*p3"]
+dirac = true
+)toml",
+                                   kFields, 1),
+            1U);
+}
+
+/// The bracket has a function that the motion has not: it is known where it is no polynomial, too.
+TEST(Tensors, MayBeSoughtWhereTheBracketAloneHasAFunction) {
+  const auto with = [](const std::string& energy, const std::string& bracket) {
+    return "hamiltonian = \"" + energy +
+           "\"\n[phase_space]\nvariables = [\"q1\", \"p1\", \"q2\", "
+           "\"p2\"]\n[phase_space.brackets]\n\"q1,p1\" = \"1\"\n\"q2,p2\" = \"" +
+           bracket + "\"\n";
+  };
+  // d/dp1, beside d/dq1 and what the integrals p1, q2 and p2 give.
+  EXPECT_EQ(found_beside_the_known(with("p1", "1/q2"), kFields, 1), 1U);
+  EXPECT_EQ(found_beside_the_known(with("p1^2/2", "sqrt(1 + q2^2)"), kBivectors, 1), 1U);
+}
+
+/// With X = sqrt(x) d/dx, Y = sqrt(y) d/dy and the integral I = sqrt(x) - sqrt(y): I^2 X has the
+/// degree 2, and so has I X^Y, since sqrt(x)^2 = x.
+TEST(Tensors, ProductsThatARootMakesSimplerAreKnown) {
+  const std::string roots =
+      "[phase_space]\nvariables = [\"x\", \"y\"]\ndomain = [\"x > 0\", \"y > "
+      "0\"]\n[equations]\nx = \"sqrt(x)\"\ny = \"sqrt(y)\"\n";
+  EXPECT_EQ(found_beside_the_known(roots, kFields, 3), 1U);
+  EXPECT_EQ(found_beside_the_known(roots, kBivectors, 2), 0U);
+}
+
 TEST(Tensors, OfRankThreeAreKnownFromTheLowerOnes) {
   const TensorReport report = structure::find_tensors(bundled("euler"), {3, false}, 1);
   EXPECT_TRUE(report.complete);

@@ -96,6 +96,16 @@ void add_with_factors(nlohmann::ordered_json& json, const char* list, const Repo
   json["seconds"] = seconds;
 }
 
+/// What a search for tensors takes as known.
+const char* makers_of(structure::TensorType type) {
+  if (type.form)
+    return type.rank == 1 ? "the differentials of the integrals"
+                          : "the differentials of the integrals and invariant forms of lower rank";
+  return type.rank == 1
+             ? "the motion, the bracket and the integrals"
+             : "the motion, the bracket, the integrals and invariant tensors of lower rank";
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const Model& model, int degree, const TensorReport& report,
@@ -125,11 +135,8 @@ void print(const Model& model, int degree, const TensorReport& report, double se
   fmt::print("{}: invariant {} T, L_X T = 0, with components of degree {} at most{}\n", model.name,
              name, degree, in_functions(report.functions));
   fmt::print("dimension up to degree 0, 1, ..: {}\n", fmt::join(report.dimensions, " "));
-  fmt::print("{}\n", report.found.empty()
-                         ? "beside those that are made of the motion, the bracket and the "
-                           "integrals: none"
-                         : "beside those that are made of the motion, the bracket and the "
-                           "integrals:");
+  fmt::print("beside those that are made of {}:{}\n", makers_of(report.type),
+             report.found.empty() ? " none" : "");
   for (const Tensor& tensor : report.found) {
     fmt::print("  degree {:<3} {}   {}\n", tensor.degree, tensor_text(report.type, tensor.texts),
                verdict_text(tensor.verdict, colour));
