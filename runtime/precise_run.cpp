@@ -182,7 +182,8 @@ class PreciseRunner {
     if (!closed && !(near && again)) return false;
     run_.singular_time = to_cln(predicted ? *predicted : time_, format_);
     stop(Status::singularity,
-         "the solution has a singularity: it grows without bound, or comes to a place at which the "
+         "the solution has a singularity, or one within rounding of real times: it grows without "
+         "bound, or comes to a place at which the "
          "equations have a pole or are not smooth");
     return true;
   }

@@ -56,7 +56,7 @@ std::vector<Claim> claims_of(const Model& written, const Model& model, const Can
     require_bracket(row, model, texts);
     for (const NamedExpression& f : read(written, texts, given)) {
       claims.push_back(row.make(f, on));
-      if (on.empty()) notes.push_back(judgement_note(model, f));
+      if (on.empty() && candidates.judged) notes.push_back(judgement_note(model, f));
     }
   }
   for (const Text& text : candidates.identities) {

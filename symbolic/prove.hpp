@@ -97,6 +97,7 @@ struct Candidates {
   std::vector<Text> identities;  ///< "LEFT = RIGHT"
   std::vector<Text> on;
   std::optional<ClaimKind> only{};  ///< without candidates: only claims and facts of this kind
+  bool judged = true;  ///< whether a note says of each whether it is new beside what the case has
   /// Whether there is none, so that the claims of the file are what is asked for.
   bool empty() const {
     return integrals.empty() && casimirs.empty() && invariant_relations.empty() &&

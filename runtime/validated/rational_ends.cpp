@@ -23,13 +23,29 @@ cln::cl_RA rational(const arf_t number) {
   return whole / cln::ash(cln::cl_I(1), -shift);
 }
 
+/// The least size of an end: a number such as exp(-10^8) has as many digits below its point.
+constexpr slong kLeastExponent = -20000;
+
+/// Around a ball that is smaller than 2^kLeastExponent, which has not one point alone.
+RationalInterval around_tiny(const ArbBall& ball) {
+  const cln::cl_RA least = cln::expt(cln::cl_RA(2), cln::cl_I(kLeastExponent));
+  return {arb_is_nonnegative(ball.raw()) != 0 ? cln::cl_RA(0) : -least,
+          arb_is_nonpositive(ball.raw()) != 0 ? cln::cl_RA(0) : least};
+}
+
 }  // namespace
 
 RationalInterval ends_of(const ArbBall& ball) {
   if (arb_is_finite(ball.raw()) == 0) throw std::domain_error("the value is not finite");
+  if (arb_is_exact(ball.raw()) == 0 &&
+      mag_cmp_2exp_si(arb_radref(ball.raw()), kLeastExponent) < 0 &&
+      arf_cmpabs_2exp_si(arb_midref(ball.raw()), kLeastExponent) < 0)
+    return around_tiny(ball);
   arf_t radius;
   arf_init(radius);
   arf_set_mag(radius, arb_radref(ball.raw()));
+  if (arf_is_zero(radius) == 0 && arf_cmp_2exp_si(radius, kLeastExponent) < 0)
+    arf_set_si_2exp_si(radius, 1, kLeastExponent);
   const cln::cl_RA middle = rational(arb_midref(ball.raw())), by = rational(radius);
   arf_clear(radius);
   return {middle - by, middle + by};

@@ -407,5 +407,26 @@ TEST(DigitsOf, APartThatCancelsIsWarnedOf) {
   EXPECT_NE(outcome.json().at("warnings").dump().find("sqrt(x)"), std::string::npos);
 }
 
+/// exp(-10^7) has four million zeros behind its point, which nothing needs to write down.
+TEST(DigitsOf, ANumberBeyondDoublesArePrintedByItsExponent) {
+  const Folder folder;
+  folder.write("small.toml", R"toml([phase_space]
+variables = ["x"]
+[equations]
+x = "exp(-10^7)"
+[[scene]]
+name = "default"
+initial = { x = "0" }
+duration = "1"
+)toml");
+  const Outcome plain = run_in(folder, {"integrate", "./small.toml", "--digits", "20", "--json"});
+  ASSERT_EQ(plain.status, 0) << plain.err;
+  EXPECT_EQ(plain.json().at("state").at("x"), "1.5169367808987343576e-4342945");
+  const Outcome box =
+      run_in(folder, {"integrate", "./small.toml", "--digits", "20", "--validated", "--json"});
+  ASSERT_EQ(box.status, 0) << box.err;
+  EXPECT_TRUE(has(box.out, "e-6021")) << box.out;
+}
+
 }  // namespace
 }  // namespace casimir::test

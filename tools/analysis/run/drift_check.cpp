@@ -41,6 +41,7 @@ KnownInvariant known_invariant(const Model& model, const Scene& scene,
   }
   Candidates candidates;
   candidates.integrals.push_back({name, {"invariant", 1, 1}, name});
+  candidates.judged = false;
   const auto proof_in = [&](const Model& where) {
     const std::vector<Proof> proofs = prove_within(kSecondsOfCheck, where, candidates, {});
     return proofs.empty() ? Proof{} : proofs.front();

@@ -14,14 +14,24 @@
 namespace casimir::tools {
 namespace {
 
-/// The digits of round(|x| 10^shift).
-std::string scaled_digits(const cln::cl_RA& x, long shift) {
-  const cln::cl_I power = cln::expt_pos(cln::cl_I(10), cln::cl_I(std::max(std::abs(shift), 1L)));
-  const cln::cl_RA scaled = shift > 0   ? cln::cl_RA(cln::abs(x) * power)
-                            : shift < 0 ? cln::cl_RA(cln::abs(x) / power)
-                                        : cln::abs(x);
+/// The digits of round(|x| 10^shift): exactly, or, where x is so large or small that its digits
+/// would fill the memory, with so many guard digits that a last one is seldom another.
+std::string scaled_digits(const cln::cl_F& x, int digits, long shift) {
+  constexpr long kExact = 5000;
+  constexpr int kGuardDigits = 40;
+  const cln::cl_I ten = 10, size = std::abs(shift);
+  cln::cl_I whole;
+  if (size <= kExact) {
+    const cln::cl_RA power = cln::expt(cln::cl_RA(ten), cln::cl_I(shift));
+    whole = cln::round1(cln::abs(cln::rational(x)) * power);
+  } else {
+    const cln::float_format_t format = cln::float_format(static_cast<uintE>(digits) + kGuardDigits);
+    const cln::cl_R power = cln::expt(cln::cl_float(ten, format), size);
+    const cln::cl_R own = cln::abs(cln::cl_float(x, format));
+    whole = cln::round1(shift > 0 ? own * power : own / power);
+  }
   std::ostringstream text;
-  text << cln::round1(scaled);
+  text << whole;
   return text.str();
 }
 
@@ -43,17 +53,18 @@ std::string laid_out(std::string digits, long exponent, long most) {
 
 std::string decimal_text(const cln::cl_F& value, int digits) {
   if (cln::zerop(value)) return "0";
-  const cln::cl_RA x = cln::rational(value);
   const cln::decoded_float parts = cln::decode_float(value);
   constexpr double kLog10Of2 = 0.30102999566398120;
   auto exponent = static_cast<long>(
       std::floor(kLog10Of2 * static_cast<double>(cln::cl_I_to_long(parts.exponent)) +
                  std::log10(cln::double_approx(parts.mantissa))));
-  std::string text = scaled_digits(x, digits - 1 - exponent);
+  std::string text = scaled_digits(value, digits, digits - 1 - exponent);
   // The logarithm may be off beside a power of ten, and rounding may reach one.
-  for (; static_cast<int>(text.size()) > digits; text = scaled_digits(x, digits - 1 - exponent))
+  for (; static_cast<int>(text.size()) > digits;
+       text = scaled_digits(value, digits, digits - 1 - exponent))
     ++exponent;
-  for (; static_cast<int>(text.size()) < digits; text = scaled_digits(x, digits - 1 - exponent))
+  for (; static_cast<int>(text.size()) < digits;
+       text = scaled_digits(value, digits, digits - 1 - exponent))
     --exponent;
   return (cln::minusp(value) ? "-" : "") + laid_out(text, exponent, digits);
 }
