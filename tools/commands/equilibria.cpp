@@ -71,6 +71,7 @@ nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene,
                               {"symmetries", report.symmetries},
                               {"level", report.level},
                               {"equilibria", nlohmann::ordered_json::array()},
+                              {"outside", report.outside},
                               {"starts", report.starts},
                               {"seconds", seconds}};
   if (!answer.ranges.empty()) json["for_every"] = answer.ranges;
@@ -168,9 +169,10 @@ void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAn
                                   : real + (imaginary[0] == '-' ? "" : "+") + imaginary + "i");
     }
     fmt::print("{}{}\n  {}\n", e.velocities.empty() ? "equilibrium" : "relative equilibrium",
-               e.family > 0   ? fmt::format(", one of a family of dimension {}", e.family)
-               : e.degenerate ? ", degenerate: a multiple root, known to few digits"
-                              : "",
+               e.family > 0 ? fmt::format(", one of a family of dimension {}", e.family)
+               : e.degenerate
+                   ? ", degenerate: a multiple root as far as doubles tell, known to few digits"
+                   : "",
                state);
     if (!e.velocities.empty()) fmt::print("  velocity {:.6g}\n", fmt::join(e.velocities, ", "));
     fmt::print("  {}\n", stability_text(e, values));
@@ -180,6 +182,8 @@ void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAn
     fmt::print("... and {} more; --json has them all\n", report.equilibria.size() - kMost);
   fmt::print("{} found from {} random starts, which does not exclude others; {:.3f} s\n",
              report.equilibria.size(), report.starts, seconds);
+  if (report.outside > 0)
+    fmt::print("{} more outside of the domain of the case, left out\n", report.outside);
   if (!answer.proofs.empty()) fmt::print("{} of them proved to exist\n", answer.proved());
   if (!answer.warning.empty()) fmt::print("warning: {}\n", answer.warning);
 }

@@ -206,6 +206,52 @@ TEST(Equilibria, AMultipleRootIsFoundWhereItIs) {
   EXPECT_NE(shifted.equilibria[0].stability, SpectralStability::stable);
 }
 
+EquilibriumReport in_text(const std::string& text) {
+  const Model model = model_of(text);
+  return found(model, model.scene("default"));
+}
+
+std::string along_line(const std::string& rate, const std::string& start,
+                       const std::string& domain = {}) {
+  return "title = \"t\"\n[phase_space]\nvariables = [\"x\"]\n" + domain + "[equations]\nx = \"" +
+         rate + "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"" + start +
+         "\" }\nduration = \"1\"\n";
+}
+
+/// In the units of what two bodies have when they are close there is next to nothing of their
+/// equations where they rest, and it is all that they have there.
+TEST(Equilibria, OfWhatRepelsWhenItIsCloseAreNotDegenerate) {
+  const EquilibriumReport report = in_text(
+      "title = \"t\"\nhamiltonian = \"p^2/2 + 1/q^12 - 1/q^6\"\n[phase_space]\nvariables = "
+      "[\"q\", \"p\"]\ncanonical = true\n[[scene]]\nname = \"default\"\ninitial = { q = \"1/2\", p "
+      "= \"1/3\" }\nduration = \"1\"\n");
+  ASSERT_FALSE(report.equilibria.empty());
+  for (const Equilibrium& rest : report.equilibria) {
+    EXPECT_FALSE(rest.degenerate);
+    EXPECT_NEAR(std::abs(rest.state[0]), std::pow(2., 1. / 6), 1e-12);
+  }
+}
+
+/// exp(-x^2) is as good as 0 for x = 27, and 0 in doubles for x = 28, and vanishes nowhere.
+TEST(Equilibria, WhatIsTooSmallForADoubleIsNoZero) {
+  const EquilibriumReport report = in_text(along_line("x*exp(-x^2)", "1/2"));
+  ASSERT_EQ(report.equilibria.size(), 1U);
+  EXPECT_NEAR(report.equilibria[0].state[0], 0, 1e-12);
+}
+
+TEST(Equilibria, FartherOutThanTheStartAreFound) {
+  EXPECT_EQ(in_text(along_line("(x - 1)*(x - 2)*(x - 3)", "1/2")).equilibria.size(), 3U);
+  EXPECT_EQ(in_text(along_line("(x - 1)*(x - 50)", "1/2")).equilibria.size(), 2U);
+}
+
+TEST(Equilibria, OutsideOfTheDomainAreLeftOut) {
+  const EquilibriumReport report =
+      in_text(along_line("(x - 1)*(x + 1)", "1/2", "domain = [\"x > 0\"]\n"));
+  ASSERT_EQ(report.equilibria.size(), 1U);
+  EXPECT_NEAR(report.equilibria[0].state[0], 1, 1e-12);
+  EXPECT_EQ(report.outside, 1U);
+}
+
 TEST(Equilibria, AtAKinkNothingIsToldFromOneSide) {
   for (const char* rate : {"-x1 + 2*abs(x1)", "-(x1 - 1/3) + 2*abs(x1 - 1/3)"}) {
     const Equilibrium rest = rest_of({rate, "-x2"});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -19,7 +20,7 @@
 namespace casimir {
 namespace {
 
-constexpr std::size_t kMostStarts = 400;
+constexpr std::size_t kNearStarts = 400, kMostStarts = 500;
 
 using Functions = std::vector<NamedExpression>;
 
@@ -78,6 +79,41 @@ Model with_velocities(Model model, Scene& scene, const std::vector<GiNaC::ex>& i
   return model;
 }
 
+/// In units of the scene's state: the last starts lie farther out, in turn 4, 16 and 64 times as
+/// far.
+double size_of_start(std::size_t start) {
+  constexpr std::size_t kSizes = 3;
+  return start < kNearStarts ? 1 : std::pow(4., 1 + static_cast<double>(start % kSizes));
+}
+
+/// Whether the same equilibria may be found again and again farther out.
+bool repeats_in_angles(const Program& rates) {
+  return std::ranges::any_of(rates.code, [](const Instruction& one) {
+    return one.op == Op::sin || one.op == Op::cos || one.op == Op::tan;
+  });
+}
+
+/// Whether a state is certainly outside of the domain: beyond its edge by more than rounding.
+bool is_outside(const Model& model, const Scene& scene, const Equilibrium& found, double size) {
+  constexpr double kRounding = 1e-9;
+  GiNaC::exmap values;
+  for (std::size_t i = 0; i < model.variables.size(); ++i)
+    // CLN has no numbers as small as the smallest doubles.
+    values.emplace(model.variables[i], std::isnormal(found.state[i]) ? found.state[i] : 0.);
+  for (std::size_t k = 0; k < model.parameters.size(); ++k)
+    values.emplace(model.parameters[k], scene.parameters[k]);
+  return std::ranges::any_of(model.assumptions, [&](const Assumption& a) {
+    const int sign = a.comparison == Comparison::greater || a.comparison == Comparison::at_least ? 1
+                     : a.comparison == Comparison::less || a.comparison == Comparison::at_most ? -1
+                                                                                               : 0;
+    if (sign == 0) return false;
+    const GiNaC::ex value = a.difference.subs(values, GiNaC::subs_options::no_pattern).evalf();
+    if (!GiNaC::is_a<GiNaC::numeric>(value)) return false;
+    const auto& number = GiNaC::ex_to<GiNaC::numeric>(value);
+    return number.is_real() && sign * number.to_double() < -kRounding * std::max(1., size);
+  });
+}
+
 /// Functions that are proved to keep their values: of those that the model has, and these.
 std::vector<GiNaC::ex> all_integrals(const Model& model, std::vector<GiNaC::ex> result) {
   if (model.hamiltonian) result.push_back(*model.hamiltonian);
@@ -130,15 +166,21 @@ EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
   std::mt19937_64 random(1);
   const equilibria::ScaledEquations scaled(equations, integrals.size(), random);
   equilibria::Collection collection(equations, scaled, random);
-  for (; report.starts < kMostStarts; ++report.starts) {
-    tick(static_cast<double>(report.starts) / kMostStarts);
-    equilibria::Place place = scaled.random_place(random);
+  const std::size_t starts = repeats_in_angles(spec.rhs) ? kNearStarts : kMostStarts;
+  for (; report.starts < starts; ++report.starts) {
+    tick(static_cast<double>(report.starts) / static_cast<double>(starts));
+    equilibria::Place place = scaled.random_place(random, size_of_start(report.starts));
     if (report.starts == 0) place.x = equations.start();
-    if (equilibria::solve(scaled, place)) collection.add(place);
+    if (equilibria::solve(scaled, place)) collection.add(place, report.starts < kNearStarts);
   }
   report.equilibria = collection.equilibria(equilibria::Assessment(
       extended, own, spec, all_integrals(model, integrals), equations, scaled, random));
   report.size = scaled.length();
+  const std::size_t all = report.equilibria.size();
+  std::erase_if(report.equilibria, [&](const Equilibrium& found) {
+    return is_outside(model, scene, found, report.size);
+  });
+  report.outside = all - report.equilibria.size();
   std::stable_sort(report.equilibria.begin(), report.equilibria.end(),
                    [](const auto& a, const auto& b) { return a.family < b.family; });
   return report;

@@ -20,8 +20,8 @@ struct Equilibrium {
   std::vector<std::complex<double>> eigenvalues;
   SpectralStability stability = SpectralStability::undecided;  ///< what they tell
   std::size_t family = 0;  ///< dimension of the family of such states on the level; 0: isolated
-  /// Whether the equations do not change to first order in some direction: in one of a family, or
-  /// at a multiple root, whose place is known to few digits.
+  /// Whether the equations do not change to first order in some direction, as far as doubles tell:
+  /// in one of a family, or at a multiple root, whose place is known to few digits.
   bool degenerate = false;
   double residual = 0;  ///< the largest rate that is left
 
@@ -36,6 +36,7 @@ struct EquilibriumReport {
   std::vector<std::string> level;             ///< functions that have the values of the scene
   bool constrained = false;  ///< some are constraints and no Casimirs: eigenvalues are along them
   std::vector<Equilibrium> equilibria;  ///< isolated ones first
+  std::size_t outside = 0;              ///< how many more were found, outside of the domain
   std::size_t starts = 0;               ///< of Newton's iteration
   double size = 1;                      ///< of the scene's state, by which all is measured
 };

@@ -77,9 +77,9 @@ bool alike(const Equilibrium& a, const Equilibrium& b) {
 
 }  // namespace
 
-void Collection::add(const Place& place) {
+void Collection::add(const Place& place, bool also_degenerate) {
   auto found = described(equations_, scaled_, place);
-  if (!found) return;
+  if (!found || (found->degenerate && !also_degenerate)) return;
   if (found->degenerate) found->family = family_at(scaled_, place, random_);
   std::size_t home = groups_.size();
   for (std::size_t g = 0; g < groups_.size();) {

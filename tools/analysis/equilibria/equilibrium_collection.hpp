@@ -17,7 +17,8 @@ class Collection {
       : equations_(equations), scaled_(scaled), random_(random) {}
 
   /// Takes in a solution, with the one that it belongs to.
-  void add(const Place& place);
+  /// \param also_degenerate  if not, one that may be one of many is left out
+  void add(const Place& place, bool also_degenerate);
 
   /// \param assess  completes what is said of each, at the point that stands for it
   std::vector<Equilibrium> equilibria(

@@ -91,7 +91,7 @@ bool is_solved(const ScaledEquations& equations, const Place& place) {
 bool solve(const ScaledEquations& equations, Place& place) {
   if (!approach(equations, place)) return false;
   for (const bool each : {false, true}) refine(equations, place, each);
-  return is_solved(equations, place);
+  return is_solved(equations, place) && !equations.vanish_by_underflow(place);
 }
 
 }  // namespace casimir::equilibria

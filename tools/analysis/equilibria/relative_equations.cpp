@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
+#include "runtime/digits/big_float.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
 #include "runtime/step/dense.hpp"
+#include "tools/analysis/equilibria/newton_solution.hpp"
 
 namespace casimir::equilibria {
 namespace {
@@ -71,6 +75,30 @@ Vector Equations::sizes_of_terms(const Vector& x, const Vector& v) const {
     result(k++) =
         std::max(size(functions[level_[i]]), std::abs(values_(static_cast<Eigen::Index>(i))));
   return result;
+}
+
+bool Equations::vanish_by_underflow(const Vector& x, const Vector& v, double near) const {
+  constexpr int kLeastExponent = std::numeric_limits<double>::min_exponent;
+  const double least = std::numeric_limits<double>::min();
+  if ((rates(x, v).cwiseAbs().array() >= least).all()) return false;
+  const Precision precision(std::numeric_limits<double>::digits);
+  const auto long_rates = [&](const Vector& state) {
+    std::vector<BigFloat> at;
+    for (const double input : inputs(state, v)) arf_set_d(at.emplace_back().mid(), input);
+    return evaluate(rates_, at);
+  };
+  try {
+    const std::vector<BigFloat> here = long_rates(x);
+    for (const double side : {-near, near}) {
+      const std::vector<BigFloat> there = long_rates((x.array() + side).matrix());
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        const bool is_small = !here[i].is_zero() && here[i].log2() < kLeastExponent;
+        if (is_small && here[i].log2() > (there[i] - here[i]).log2() + 1) return true;
+      }
+    }
+  } catch (const std::domain_error&) {  // beside where the equations have values
+  }
+  return false;
 }
 
 Matrix Equations::by_velocities(const Vector& x, Eigen::Index count) const {
@@ -152,12 +180,27 @@ double ScaledEquations::rate() const {
   return sizes_.head(static_cast<Eigen::Index>(equations_.states())).maxCoeff();
 }
 
-Place ScaledEquations::random_place(std::mt19937_64& random) const {
+Place ScaledEquations::random_place(std::mt19937_64& random, double size) const {
   std::normal_distribution<double> normal;
   Place place{equations_.start(), Vector::Zero(velocities_)};
-  for (double& entry : place.x) entry = length_ * normal(random);
+  for (double& entry : place.x) entry = size * length_ * normal(random);
   for (double& entry : place.v) entry = normal(random);
   return place;
+}
+
+Vector ScaledEquations::units_around(const Place& place) const {
+  constexpr double kAside = 0.1;
+  constexpr Eigen::Index kPlaces = 4;
+  Vector result = sizes_of_terms(place);
+  for (Eigen::Index k = 0; k < kPlaces; ++k) {
+    Place other = place;  // all coordinates aside: a product of two may be small by either
+    for (Eigen::Index i = 0; i < place.x.size(); ++i)
+      other.x(i) += (i + k) % 2 == 0 || k / 2 == i % 2 ? kAside * length_ : -kAside * length_;
+    result = result.cwiseMax(sizes_of_terms(other));
+  }
+  for (double& unit : result)
+    if (!(unit > 0 && unit < 1)) unit = 1;
+  return result;
 }
 
 Vector ScaledEquations::residual(const Place& place) const {
@@ -172,6 +215,10 @@ Matrix ScaledEquations::derivative(const Place& place) const {
   Matrix result = sizes_.cwiseInverse().asDiagonal() * equations_.derivative(place.x, place.v);
   result.leftCols(place.x.size()) *= length_;
   return result;
+}
+
+bool ScaledEquations::vanish_by_underflow(const Place& place) const {
+  return equations_.vanish_by_underflow(place.x, place.v, kRoundingOfPlace * length_);
 }
 
 double ScaledEquations::distance(const Place& a, const Place& b) const {

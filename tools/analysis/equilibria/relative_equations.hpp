@@ -42,6 +42,11 @@ class Equations {
   /// is measured against.
   Eigen::VectorXd sizes_of_terms(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
 
+  /// Whether a rate is 0 in doubles, or nearly, for want of exponents alone, as exp(-x^2) far out:
+  /// it is another number, and the same one wherever doubles differ by rounding.
+  /// \param near  what rounding is of a coordinate
+  bool vanish_by_underflow(const Eigen::VectorXd& x, const Eigen::VectorXd& v, double near) const;
+
   /// What each velocity adds to the rates, a column each: the flows of the symmetries, reversed.
   Eigen::MatrixXd by_velocities(const Eigen::VectorXd& x, Eigen::Index count) const;
 
@@ -87,11 +92,16 @@ class ScaledEquations {
   double rate() const;
 
   /// A normally distributed point.
-  Place random_place(std::mt19937_64& random) const;
+  /// \param size  of the state, in its unit
+  Place random_place(std::mt19937_64& random, double size = 1) const;
 
   /// Of Equations, in the units.
   Eigen::VectorXd residual(const Place& place) const;
   Eigen::VectorXd sizes_of_terms(const Place& place) const;
+  /// The sizes of terms near a place where they are smaller than elsewhere, else 1: the equations
+  /// of bodies that repel each other are as good as 0 wherever these are not close.
+  Eigen::VectorXd units_around(const Place& place) const;
+  bool vanish_by_underflow(const Place& place) const;
   /// The largest part of the residual.
   double error(const Place& place) const;
   /// Of the residual by the state and the velocities, in the units.

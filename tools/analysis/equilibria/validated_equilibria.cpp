@@ -203,9 +203,9 @@ class Prover {
     if (!unproved_.empty()) {
       result.reason = unproved_;
     } else if (found.degenerate) {
-      result.reason = found.family > 0
-                          ? "it belongs to a family"
-                          : "it is degenerate: the equations do not change to first order";
+      result.reason = found.family > 0 ? "it belongs to a family"
+                                       : "it is degenerate: as far as doubles tell, the equations "
+                                         "do not change to first order";
     } else {
       try {
         enclose(found, result);
