@@ -30,12 +30,13 @@ Problem TensorSpace::problem(int degree) const {
 
 /// A known function need not be made of what the equations of motion need, as the bracket of
 /// {x, y} = 1/y is not: nothing new is converted in the ring of the system, whose variables have
-/// been counted. Common factors cancel in a ring of its own. Where the denominator that is left is
-/// an integral, the numerator is as invariant, and else it is not.
+/// been counted. Common factors cancel in a ring of its own. Of a denominator that is no integral
+/// the numerator may be invariant although the function is not: that would be another tensor.
 std::optional<TensorSpace::Numerator> TensorSpace::numerator_of(const GiNaC::ex& function) {
   Prover own(lift_.model(), {function});
   const FunctionRing& ring = own.ring();
   const auto [top, bottom] = ring.lowest_terms(own.convert(function));
+  if (!own.is_zero(own.rate(bottom))) return std::nullopt;
   const FunctionRing& common = system_.functions();
   for (std::size_t g = ring.symbols().size(); g < ring.end_of_generators(); ++g) {
     if (!top.uses(g)) continue;

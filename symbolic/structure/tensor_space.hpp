@@ -22,11 +22,11 @@ class TensorSpace {
   search::System& system() { return system_; }
   const search::System& system() const { return system_; }
 
-  /// Takes an integral, or its numerator in lowest terms, as known; false where that is constant,
-  /// no polynomial in the atoms or not proved to be an integral.
+  /// Takes an integral as known, or its numerator where the denominator is another integral; false
+  /// where that is constant, no polynomial in the atoms or not proved to be an integral.
   bool add_integral(const GiNaC::ex& integral);
-  /// Takes an invariant tensor, or its numerator, as known; false where that is zero, no polynomial
-  /// in the atoms or not proved to be invariant: where the denominator is an integral, it is.
+  /// Takes an invariant tensor as known, or its numerator where the denominator is an integral;
+  /// false where that is zero, no polynomial in the atoms or not proved to be invariant.
   bool add_tensor(const std::vector<GiNaC::ex>& components);
 
   /// Finds what the known ones do not generate, degree by degree. What is found at one degree is
@@ -63,7 +63,7 @@ class TensorSpace {
     Polynomial function;
     bool is_divided;  ///< the denominator depends on the coordinates
   };
-  /// Empty where it is no polynomial in the atoms.
+  /// Empty where it is no polynomial in the atoms, and where the denominator is no integral.
   std::optional<Numerator> numerator_of(const GiNaC::ex& function);
   search::Problem problem(int degree) const;
 
