@@ -71,5 +71,23 @@ TEST(PartingSolutions, NeedAPlaceThatIsNotCrossed) {
   EXPECT_NEAR(before.trajectory().state[0], 1. / 16, 1e-12);
 }
 
+// x = t^2/4 leaves x = 0, too; x = 0 is the only motion of -sqrt(x), of x' = 0 beside it, and of a
+// root that is crossed.
+TEST(PartingSolutions, MayPartAtTheStart) {
+  EXPECT_TRUE(solved(driven_equation("sqrt(x)"), "auto", 0).trust().one_of_several);
+  EXPECT_TRUE(solved(driven_equation("x^(1/3)"), "auto", 0).trust().one_of_several);
+  EXPECT_FALSE(solved(driven_equation("-sqrt(x)"), "auto", 0).trust().one_of_several);
+  EXPECT_FALSE(solved(driven_equation("x"), "auto", 0).trust().one_of_several);
+  const auto pair = [](const char* x, const char* y) {
+    return model_of(std::string("[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"") +
+                    x + "\"\ny = \"" + y +
+                    "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"0\", y = \"0\" }\n"
+                    "duration = \"2\"\n");
+  };
+  EXPECT_TRUE(solved(pair("y", "sqrt(x)"), "auto", 0).trust().one_of_several);
+  EXPECT_FALSE(solved(pair("0*x", "sqrt(x)"), "auto", 0).trust().one_of_several);
+  EXPECT_FALSE(solved(pair("1", "sqrt(x)"), "auto", 0).trust().one_of_several);
+}
+
 }  // namespace
 }  // namespace casimir::test

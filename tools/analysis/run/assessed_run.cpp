@@ -17,6 +17,7 @@
 #include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/estimate/near_singular.hpp"
 #include "tools/analysis/estimate/parting_solutions.hpp"
+#include "tools/analysis/estimate/parting_start.hpp"
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/closed_form_error.hpp"
 #include "tools/analysis/run/drift_check.hpp"
@@ -109,6 +110,14 @@ class Judge {
         });
     result_.compiled.emplace(std::move(begun.code));
     result_.later = std::move(begun.later);
+  }
+
+  /// From when on more than one solution may go on.
+  std::optional<double> parting_time() const {
+    const double begin = result_.settings.begin;
+    if (!parting_->time() && may_part_at_start(run_, begin, result_.settings.duration))
+      return begin;
+    return parting_->time();
   }
 
   void run_chosen_method() {
@@ -272,7 +281,7 @@ class Judge {
     if (trajectory.status == Status::ok) doubt_small_states();
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings,
                            drifts.which.empty() ? trajectory : without_drifts(drifts.which));
-    if (trajectory.status == Status::ok) result_.trust.one_of_several = parting_->time();
+    if (trajectory.status == Status::ok) result_.trust.one_of_several = parting_time();
     if (result_.trust.one_of_several)
       result_.trust.error_estimate = std::max(result_.trust.error_estimate, 1.);
     constexpr double kWrongByOverflow = 1e-6;
