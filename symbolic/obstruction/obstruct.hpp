@@ -41,10 +41,11 @@ struct Examined {
 
 /// A real value of the free parameter that no equation excludes for all values alike.
 struct FreeValue {
-  std::string value;      ///< as "1/4", or as "the root of c^2 - 2 near 1.41421"
-  std::string why;        ///< the conditions that hold
-  bool excluded = false;  ///< when it is examined alone; if only of rational integrals, see outcome
-  std::string outcome;    ///< what came of that
+  std::string value;           ///< as "1/4", or as "the root of c^2 - 2 near 1.41421"
+  std::string why;             ///< the conditions that hold
+  bool excluded = false;       ///< when it is examined alone
+  bool only_rational = false;  ///< not excluded, but that there is no further rational integral
+  std::string outcome;         ///< what came of that
 };
 
 /// Real values of the free parameter that are not excluded where all conditions hold.

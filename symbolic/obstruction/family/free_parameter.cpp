@@ -192,16 +192,22 @@ void exclude_values(const HamiltonianSystem& system, std::vector<FamilyEquation>
         name);
   result.proved = true;
   for (const SurvivingValue& survivor : found.values) {
-    FreeValue value{survivor.value.text(name), survivor.why, false, ""};
+    FreeValue value;
+    value.value = survivor.value.text(name);
+    value.why = survivor.why;
     const auto number = survivor.value.rational();
     if (number && is_ruled_out(system, *number)) continue;
     if (number) {
       const Obstruction own = examine(*number);
-      value.excluded = own.proved || own.rational;
+      // For the other values it is of meromorphic integrals: of rational ones alone is less, since
+      // px + (py^2 + x y^2)/2 has an integral with Airy's functions.
+      value.excluded = own.proved;
       value.outcome = own.proved     ? alone_text(own.examined.back())
-                      : own.rational ? "of rational integrals alone, by an irregular point: " +
+                      : own.rational ? "rational integrals alone are excluded, by an irregular "
+                                       "point: " +
                                            alone_text(own.examined[*own.rational])
                                      : own.reason;
+      value.only_rational = !own.proved && own.rational.has_value();
     } else {
       value.outcome = "not examined alone: no rational number";
     }

@@ -66,7 +66,9 @@ void print_survivors(const Obstruction& answer) {
   for (const obstruction::FreeValue& value : answer.values) {
     print_line(value.excluded ? "alone" : "survives",
                fmt::format("{} = {}: {}", answer.free, value.value,
-                           value.excluded ? value.outcome : value.why));
+                           value.excluded        ? value.outcome
+                           : value.only_rational ? value.why + "; " + value.outcome
+                                                 : value.why));
   }
   for (const obstruction::FreeSequence& sequence : answer.sequences) {
     std::string conditions;
