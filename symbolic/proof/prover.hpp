@@ -281,6 +281,7 @@ class Prover {
   bool meet_only_where(const Polynomial& a, const Polynomial& b,
                        const std::function<bool(const Polynomial&)>& is_such);
   bool is_moved_by_bracket(const Polynomial& f);
+  bool is_kept_where_zero(const Polynomial& g, const Polynomial& f);
   bool ends_almost_all_motions(const Polynomial& f);
   std::vector<Polynomial> kinks_of(const std::vector<Polynomial>& rates,
                                    const std::function<bool(const Polynomial&)>& is_passed_pole);

@@ -129,15 +129,28 @@ bool Prover::is_moved_by_bracket(const Polynomial& f) {
   });
 }
 
+/// Whether the motion keeps g = 0 where f is zero, and has no pole in it there.
+bool Prover::is_kept_where_zero(const Polynomial& g, const Polynomial& f) {
+  const auto [top, bottom] = ring_.lowest_terms(rate(g));
+  Polynomial quotient(ring_.ring());
+  return top.is_zero() || (top.divide(f, &quotient) && !bottom.divide(f, &quotient));
+}
+
 /// The conserved Hamiltonian is infinite at almost all points where f is zero: it is c/d^k + .., d
-/// is zero there, and c, a function without roots and of few poles, is not.
+/// is zero there, and c, a function without roots and of few poles, is not. Where a factor of c is
+/// zero as well, motions may pass, and all of them if they are led there: those of p1 p2/q1^2 come
+/// to q1 = 0 with p1 = 0. What the motion keeps zero there, as an integral, leads none.
 bool Prover::ends_almost_all_motions(const Polynomial& f) {
   if (!model_.hamiltonian || model_.time || !is_moved_by_bracket(f)) return false;
   const auto leading = ring_.leading_divided_by(convert(*model_.hamiltonian), f);
   if (!leading || is_long(*leading) || !ring_.radicand_factors(*leading).empty()) return false;
   const auto [top, bottom] = ring_.lowest_terms(*leading);
   Polynomial quotient(ring_.ring());
-  return ring_.pole_factors(top).empty() && !top.divide(f, &quotient);
+  if (!ring_.pole_factors(top).empty() || top.divide(f, &quotient)) return false;
+  return std::ranges::all_of(top.factors(), [&](const auto& factor) {
+    const Polynomial& g = factor.first;
+    return !varies(g) || ring_.is_assumed_nonzero(g) || !may_meet(g, f) || is_kept_where_zero(g, f);
+  });
 }
 
 bool Prover::varies(const Polynomial& p) const {

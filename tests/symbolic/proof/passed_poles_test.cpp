@@ -227,6 +227,30 @@ TEST(PassedPoles, OfTheEnergyArePassedWhereTheBracketLeadsThere) {
 }
 
 /// |x|^(2 a) is a pole for a < 0, and log|x| times what is zero there may be anything.
+/// All motions of H = p1 p2/q1^2 with p2 != 0 come to q1 = 0 through p1 = 0, where H is 0/0: q1 is
+/// (3 p2 t)^(1/3) and p1 = c q1^2, with a c of its own on each side. So do those of (p1^2/2 -
+/// 1)/q1^2. A factor that the motion keeps zero there leads none: the angular momentum L of
+/// L^2/r^2.
+TEST(PassedPoles, OfTheEnergyArePassedWhereItsCoefficientVanishesToo) {
+  const auto with = [](const std::string& energy, const std::string& rest) {
+    return "hamiltonian = \"" + energy +
+           "\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", \"p2\"]\ncanonical = true\n" +
+           rest;
+  };
+  const std::vector<std::string> wall{"q1 = 0"};
+  EXPECT_EQ(proof_in_case("integral", with("p1*p2/q1^2", "[integrals]\nK = \"p1/q1^2\"\n")).jumps,
+            wall);
+  EXPECT_FALSE(proof_in_case("measure", with("p1*p2/q1^2", "[[measure]]\ndensity = \"p1/q1^2\"\n"))
+                   .where.empty());
+  EXPECT_EQ(proof_in_case("integral", with("(p1^2/2 - 1)/q1^2",
+                                           "[integrals]\nG = \"(p1^2/2 - 1)/q1^2 + p2\"\n"))
+                .jumps,
+            wall);
+  EXPECT_TRUE(proof_in_case("integral", with("p1^2/2 + p2^2/(2*q1^2)",
+                                             "[integrals]\nG = \"p1^2 + p2^2/q1^2\"\n"))
+                  .jumps.empty());
+}
+
 TEST(PassedPoles, OfPowersAndLogarithmsAreSeen) {
   const auto relation = [](const std::string& y, const std::string& f) {
     return proof_in_case(
